@@ -1,0 +1,39 @@
+# Everything a fresh machine needs beyond python3, pip, git and make is set up here.
+.PHONY: demo test check docs lock clean
+.DEFAULT_GOAL := demo
+
+TOOLS := .tools
+UV    := PYTHONPATH=$(TOOLS) $(TOOLS)/bin/uv
+READY := .venv/.ready
+BIN   := .venv/bin
+DESIGN ?= examples/gonzalez-fuentes-2022.toml
+
+$(TOOLS)/bin/uv:
+	python3 -m pip install --quiet --target $(TOOLS) uv
+
+$(READY): pyproject.toml uv.lock | $(TOOLS)/bin/uv
+	$(UV) sync --frozen --quiet
+	@touch $@
+
+# Status 1 of a command means: computed, and the design has a fault that the message names.
+demo: $(READY)
+	@$(BIN)/hypoid report $(DESIGN) -o report.html || [ $$? -eq 1 ]
+	@echo "The report is $(CURDIR)/report.html: open it in any browser."
+
+test: check docs
+
+check: $(READY)
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/pyright
+	$(BIN)/lint-imports
+	$(BIN)/pytest
+
+docs: $(READY)
+	$(BIN)/sphinx-build -W --keep-going -b html docs docs/_build/html
+
+lock: | $(TOOLS)/bin/uv
+	$(UV) lock
+
+clean:
+	rm -rf $(TOOLS) .venv docs/_build report.html

@@ -1,0 +1,74 @@
+"""A cutting edge: plane pieces, each a line, an arc or a one-sided parabola, placed in the cutter.
+
+One form holds every edge of the four papers (edge arc, flat land, straight and curved blade,
+Toprem, tip relief): with f and g the run along a start tangent and the rise towards the metal,
+
+    f = sin(k s)/k,   g = (1 - cos(k s))/k + c max(s - b, 0)**2,
+
+a line for k = c = 0, an arc of curvature k, and a relief of parabola coefficient c from s = b on.
+So one compiled function serves every edge. Pieces run from the blade's tip to its shank.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from ..geometry import Batch, Scalar, Vector
+
+
+@jax.tree_util.register_dataclass
+@dataclass(frozen=True)
+class EdgePiece:
+    """One piece of an edge, in the cutter frame (mm).
+
+    Every field may be traced: nothing is recompiled for another blade.
+    """
+
+    start: Vector  # point at s = 0
+    tangent: Vector  # unit, towards the shank, at s = 0
+    metal: Vector  # unit, in the rake plane, normal to the tangent, out of the blade
+    curvature: Scalar  # k, 1/mm, positive where the edge bends towards the metal
+    relief: Scalar  # c, 1/mm
+    relief_from: Scalar  # b, mm
+    low: Scalar  # s at the tip end, mm
+    high: Scalar  # s at the shank end, mm
+
+    def turned(self, angle: float) -> EdgePiece:
+        """The same piece turned about the cutter axis, rad."""
+        c, s = np.cos(angle), np.sin(angle)
+
+        def turn(v: Vector) -> Vector:
+            return (c * v[0] - s * v[1], s * v[0] + c * v[1], v[2])
+
+        return replace(
+            self, start=turn(self.start), tangent=turn(self.tangent), metal=turn(self.metal)
+        )
+
+
+def edge_point(piece: EdgePiece, s: Batch) -> tuple[Vector, Vector]:
+    """Point (mm) and derivative by s of an edge piece, in the cutter frame."""
+    k = piece.curvature
+    turn = k * s
+    small = jnp.abs(turn) < 1e-3
+    safe = jnp.where(small, 1.0, turn)
+    square = turn * turn
+    beyond = jnp.maximum(s - piece.relief_from, 0.0)
+    sine, cosine = jnp.sin(safe), jnp.cos(safe)
+    # Taylor series keep line and arc in one formula; the next terms are below 1e-16.
+    along = s * jnp.where(small, 1.0 - square / 6.0 * (1.0 - square / 20.0), sine / safe)
+    bend = jnp.where(small, turn * (0.5 - square / 24.0), (1.0 - cosine) / safe)
+    rise = s * bend + piece.relief * beyond**2
+    along_s = jnp.where(small, 1.0 - square * (0.5 - square / 24.0), cosine)
+    rise_s = jnp.where(small, turn * (1.0 - square / 6.0), sine) + 2.0 * piece.relief * beyond
+    point = tuple(
+        p + along * t + rise * m
+        for p, t, m in zip(piece.start, piece.tangent, piece.metal, strict=True)
+    )
+    derivative = tuple(
+        along_s * t + rise_s * m for t, m in zip(piece.tangent, piece.metal, strict=True)
+    )
+    return point, derivative  # pyright: ignore[reportReturnType]

@@ -1,0 +1,171 @@
+"""Charts: the angle and the parameters of a piece of flank as polynomials over the blank.
+
+Coordinates are the cone distance S and the height H above the pitch cone. A piece covers S from toe
+to heel and H between two of its own edge lines H_low(S) and H_high(S), so that its rectangle
+(x, y) in [-1, 1]**2 never asks for a point the piece does not have. Next to the root land H grows
+with the square of the edge length, so a fillet's y counts the root of the height.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from ..cutter import EdgePiece
+from ..geometry import Batch, Batched, Scalar, fit, fit_line, horner, horner_line, nodes, on_unit
+from ._envelope import Surface, axial_radial_angle, newton_pair, value_and_jacobian
+
+COLUMNS, ROWS = 14, 12  # polynomial orders along S and across
+
+
+@jax.tree_util.register_dataclass
+@dataclass(frozen=True)
+class PitchCone:
+    """Pitch cone of a member: apex at z = -apex_beyond (mm), half angle by sine and cosine."""
+
+    apex_beyond: Scalar
+    sine: Scalar
+    cosine: Scalar
+
+    def cone_distance_height(self, z: Batch, rho: Batch) -> tuple[Batch, Batch]:
+        """(S, H) of points at axial position z and radius rho, mm."""
+        along = z + self.apex_beyond
+        return along * self.cosine + rho * self.sine, rho * self.cosine - along * self.sine
+
+    def axial_radial(self, distance: Any, height: Any) -> tuple[Any, Any]:
+        """(z, rho) of points at cone distance S and height H, mm."""
+        z = distance * self.cosine - height * self.sine - self.apex_beyond
+        return z, distance * self.sine + height * self.cosine
+
+
+@jax.tree_util.register_dataclass
+@dataclass(frozen=True)
+class Chart:
+    """Polynomials of one piece: its edge lines and, over its rectangle, angle, s and theta."""
+
+    toe: Scalar  # range of S, mm
+    heel: Scalar
+    low: Batch  # powers of H_low(x)
+    high: Batch
+    angle: Any  # powers (i, j)
+    s: Any
+    theta: Any
+    rooted: Scalar  # 1 where y counts the root of the height (fillet), else 0
+    error: Scalar = field(metadata={"static": False})  # greatest misfit of the angle seen, rad
+
+    def bounds(self, distance: Batch) -> tuple[Batch, Batch]:
+        """H_low and H_high (mm) at cone distance S."""
+        x = on_unit(self.toe, self.heel, distance)
+        return horner_line(self.low, x), horner_line(self.high, x)
+
+    def coordinates(self, distance: Batch, height: Batch) -> tuple[Batch, Batch]:
+        """(x, y) of (S, H); outside the rectangle where |x| or |y| passes 1."""
+        x = on_unit(self.toe, self.heel, distance)
+        low, high = horner_line(self.low, x), horner_line(self.high, x)
+        t = (height - low) / (high - low)
+        t = jnp.where(self.rooted > 0.5, jnp.sqrt(jnp.maximum(t, 0.0)), t)
+        return x, 2.0 * t - 1.0
+
+
+def _distance_at(
+    surface: Surface, piece: EdgePiece, cone: PitchCone, distance: Batch, s: Batch, theta: Batch
+) -> tuple[Batch, ...]:
+    """theta, H and angle where the line s = const of a piece reaches the cone distance S."""
+
+    def at(angle: Batch) -> tuple[Batch, Batch, Batch]:
+        z, rho, turn = axial_radial_angle(surface, piece, s, angle)
+        return *cone.cone_distance_height(z, rho), turn
+
+    def step(_: int, angle: Batch) -> Batch:
+        (reached, *_), (slope, *_) = jax.jvp(at, (angle,), (jnp.ones_like(angle),))
+        return angle - jnp.clip(jnp.nan_to_num((reached - distance) / slope), -0.05, 0.05)
+
+    theta = jax.lax.fori_loop(0, 25, step, theta)
+    reached, height, turn = at(theta)
+    return theta, height, turn, jnp.abs(reached - distance)
+
+
+def _height_at(
+    surface: Surface,
+    piece: EdgePiece,
+    cone: PitchCone,
+    distance: Batch,
+    height: Batch,
+    s: Batch,
+    theta: Batch,
+) -> tuple[Batch, ...]:
+    """s, theta and angle of the point (S, H) of a piece, with what is left and the chart's sense."""
+
+    def residual(a: Batch, b: Batch) -> tuple[Batch, Batch]:
+        z, rho, _ = axial_radial_angle(surface, piece, a, b)
+        reached, at = cone.cone_distance_height(z, rho)
+        return reached - distance, at - height
+
+    s, theta = newton_pair(residual, (s, theta), (0.3, 0.02), 20)
+    (f, g), j = value_and_jacobian(residual, s, theta)
+    _, _, angle = axial_radial_angle(surface, piece, s, theta)
+    return s, theta, angle, jnp.hypot(f, g), j[0] * j[3] - j[1] * j[2]
+
+
+distance_at = Batched(_distance_at, parameters=3)
+height_at = Batched(_height_at, parameters=3)
+
+
+def chart(
+    surface: Surface,
+    piece: EdgePiece,
+    cone: PitchCone,
+    toe: float,
+    heel: float,
+    theta_start: float,
+    rooted: bool,
+) -> Chart:
+    """Chart of a piece between toe and heel (S, mm); nodes that fail keep their start values."""
+    x, y = nodes(COLUMNS), nodes(ROWS)
+    distance = 0.5 * (heel + toe) + 0.5 * (heel - toe) * x
+    low, high = float(piece.low), float(piece.high)
+    full = np.full(COLUMNS, 1.0)
+    theta = theta_start * full
+    theta_low, height_low, *_ = distance_at(surface, piece, cone, distance, low * full, theta)
+    theta_high, height_high, *_ = distance_at(surface, piece, cone, distance, high * full, theta)
+    t = 0.5 * (1.0 + y)
+    share = t**2 if rooted else t
+    mix = np.outer(full, share)
+    heights = height_low[:, None] + (height_high - height_low)[:, None] * mix
+    s0 = low + (high - low) * np.outer(full, t)
+    theta0 = theta_low[:, None] + (theta_high - theta_low)[:, None] * np.outer(full, t)
+    shape = heights.shape
+    s, theta, angle, left, _ = (
+        part.reshape(shape)
+        for part in height_at(
+            surface, piece, cone, np.outer(distance, np.ones(ROWS)), heights, s0, theta0
+        )
+    )
+    made = Chart(
+        toe=toe,
+        heel=heel,
+        low=fit_line(height_low),
+        high=fit_line(height_high),
+        angle=fit(angle),
+        s=fit(s),
+        theta=fit(theta),
+        rooted=float(rooted),
+        error=0.0,
+    )
+    return replace(made, error=_misfit(made, surface, piece, cone) if left.max() < 1e-8 else np.inf)
+
+
+def _misfit(made: Chart, surface: Surface, piece: EdgePiece, cone: PitchCone) -> float:
+    """Greatest error of the chart's angle between its nodes, against the exact surface, rad."""
+    x, y = (grid.ravel() for grid in np.meshgrid(np.linspace(-1, 1, 23), np.linspace(-0.98, 1, 19)))
+    s, theta, angle = (np.asarray(horner(c, x, y)) for c in (made.s, made.theta, made.angle))
+    distance = 0.5 * (made.heel + made.toe) + 0.5 * (made.heel - made.toe) * x
+    low, high = (np.asarray(horner_line(c, x)) for c in (made.low, made.high))
+    t = 0.5 * (1.0 + y)
+    height = low + (high - low) * (t**2 if made.rooted else t)
+    exact = height_at(surface, piece, cone, distance, height, s, theta)[2]
+    return float(np.abs(exact - angle).max())

@@ -1,0 +1,93 @@
+"""The envelope of a swept edge piece in the member's frame, and its Newton solves (left hand)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import jax
+import jax.numpy as jnp
+
+from ..cutter import EdgePiece
+from ..geometry import Batch, Scalar, Vector, scale, turn_z, unit
+from ..machine import Generator, Placed, place, solve_meshing, sweep
+
+
+@jax.tree_util.register_dataclass
+@dataclass(frozen=True)
+class Surface:
+    """A generated surface up to the edge piece that makes it: generator and which root is meant."""
+
+    generator: Generator
+    branch: Scalar  # sign of dF/dphi on the tooth
+    outward: Scalar  # sign that turns the generator's normal out of the tooth
+    plain: bool = field(metadata={"static": True})  # closed meshing condition?
+
+
+def placed(surface: Surface, piece: EdgePiece, s: Batch, theta: Batch) -> tuple[Placed, Batch]:
+    """Meshed points before the work's turn, and the discriminant of the meshing condition."""
+    gen = surface.generator
+    edge = sweep(gen, piece, s, theta)
+    mesh = solve_meshing(gen, edge, surface.branch, surface.plain)
+    return place(gen, edge, theta, mesh, surface.plain), mesh.discriminant
+
+
+def position_and_normal(
+    surface: Surface, piece: EdgePiece, s: Batch, theta: Batch
+) -> tuple[Vector, Vector]:
+    """Points (mm) and unit normals out of the tooth, left-hand member's frame."""
+    at, _ = placed(surface, piece, s, theta)
+    cosine, sine = jnp.cos(at.turn), -jnp.sin(at.turn)
+    normal = scale(surface.outward, unit(at.normal))
+    return turn_z(cosine, sine, at.point), turn_z(cosine, sine, normal)
+
+
+def axial_radial_angle(
+    surface: Surface, piece: EdgePiece, s: Batch, theta: Batch
+) -> tuple[Batch, Batch, Batch]:
+    """Axial position z, radius rho (mm) and angle about the axis (rad) of surface points.
+
+    The angle is a small arctangent less the work's turn, so it never wraps.
+    """
+    at, _ = placed(surface, piece, s, theta)
+    x, y, z = at.point
+    return z, jnp.sqrt(x * x + y * y), jnp.arctan2(y, x) - at.turn
+
+
+def newton_pair(
+    residual: Callable[[Batch, Batch], tuple[Batch, Batch]],
+    start: tuple[Batch, Batch],
+    limit: tuple[Scalar, Scalar],
+    steps: int,
+) -> tuple[Batch, Batch]:
+    """Newton in two unknowns with limited steps, all points side by side."""
+
+    def step(_: int, at: tuple[Batch, Batch]) -> tuple[Batch, Batch]:
+        (f, g), jacobian = value_and_jacobian(residual, *at)
+        ds, dt = solve_pair(jacobian, f, g)
+        # one factor for both, so that a limited step keeps its direction
+        k = 1.0 / jnp.maximum(1.0, jnp.maximum(jnp.abs(ds) / limit[0], jnp.abs(dt) / limit[1]))
+        k = jnp.where(jnp.isfinite(k), k, 0.0)
+        clean = (jnp.nan_to_num(ds), jnp.nan_to_num(dt))
+        return at[0] - k * clean[0], at[1] - k * clean[1]
+
+    return jax.lax.fori_loop(0, steps, step, start)
+
+
+Jacobian = tuple[Batch, Batch, Batch, Batch]
+
+
+def value_and_jacobian(
+    function: Callable[[Batch, Batch], tuple[Batch, ...]], a: Batch, b: Batch
+) -> tuple[tuple[Batch, ...], Jacobian]:
+    """Values of an elementwise function of two batches, and its first two rows' derivatives."""
+    one, zero = jnp.ones_like(a), jnp.zeros_like(a)
+    value, by_a = jax.jvp(function, (a, b), (one, zero))
+    _, by_b = jax.jvp(function, (a, b), (zero, one))
+    return value, (by_a[0], by_b[0], by_a[1], by_b[1])
+
+
+def solve_pair(j: Jacobian, f: Batch, g: Batch) -> tuple[Batch, Batch]:
+    """Solve a batch of 2 x 2 systems (f_a, f_b; g_a, g_b) x = (f, g)."""
+    determinant = j[0] * j[3] - j[1] * j[2]
+    return (j[3] * f - j[1] * g) / determinant, (j[0] * g - j[2] * f) / determinant

@@ -1,0 +1,76 @@
+"""What a design file becomes: two members with their flanks, and how they are mounted. Frozen."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from ..blank import MemberBlank, PairBlank
+from ..cutter import FaceHobHead
+from ..flank import Flank, Side
+from ..machine import SummarySheet, to_sheet
+
+Direction = Literal["drive", "coast"]
+
+
+@dataclass(frozen=True)
+class Member:
+    """A gear: its blank, the head that cuts it and its two active flanks."""
+
+    blank: MemberBlank
+    head: FaceHobHead
+    concave: Flank
+    convex: Flank
+
+    @property
+    def name(self) -> str:
+        return self.blank.name
+
+    @property
+    def teeth(self) -> int:
+        return self.blank.teeth
+
+    def flank(self, side: Side) -> Flank:
+        return self.concave if side == "concave" else self.convex
+
+    def sheet(self, side: Side) -> SummarySheet:
+        """Settings of one flank as on a summary sheet (signs of the 2022 paper)."""
+        return to_sheet(self.flank(side).settings, self.blank.pitch_apex_beyond_crossing_point)
+
+
+@dataclass(frozen=True)
+class Assumption:
+    """A value that the source does not give, and why it was chosen."""
+
+    value: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class GearPair:
+    """A spiral bevel or hypoid pair."""
+
+    title: str
+    source: str
+    assumed: tuple[Assumption, ...]
+    blank: PairBlank
+    pinion: Member
+    wheel: Member
+    marking_thickness: float  # mm, of the virtual marking compound
+
+    @property
+    def ratio(self) -> float:
+        """z1/z2: the wheel's turn per pinion turn."""
+        return self.pinion.teeth / self.wheel.teeth
+
+    def mates(self, direction: Direction) -> tuple[Flank, Flank]:
+        """Pinion and wheel flank that touch: drive = pinion concave with wheel convex."""
+        if direction == "drive":
+            return self.pinion.concave, self.wheel.convex
+        return self.pinion.convex, self.wheel.concave
+
+    def flanks(self) -> Iterator[Flank]:
+        for member in (self.pinion, self.wheel):
+            yield member.concave
+            yield member.convex
