@@ -1,4 +1,5 @@
-"""Gonzalez-Perez & Fuentes-Aznar, Mech. Mach. Theory 179 (2023) 105115: Tables 2 and 3, section 6.1.
+"""Gonzalez-Perez & Fuentes-Aznar 2022, doi 10.1016/j.mechmachtheory.2022.105115: Tables 2 and 3,
+and section 6.1.
 
 Tolerance: half a unit of the last printed digit.
 """

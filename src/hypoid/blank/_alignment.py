@@ -20,6 +20,8 @@ from ._pitch_cones import PitchCones, pitch_cones, tangency
 
 WHEEL_ANGLE_STEPS = 90
 AZIMUTH_STEPS = 24
+ALIGNED = 1.0e-9
+LAST_WHEEL_ANGLE = 0.5 * pi * (1.0 - 1.0e-9)
 
 
 @dataclass(frozen=True)
@@ -87,6 +89,12 @@ def nearest_blade_slope(given: FaceHobbedInputs) -> tuple[float, float]:
     return best.blade_slope, m_b
 
 
+def wants_internal_wheel(given: FaceHobbedInputs) -> bool:
+    """Whether the alignment is still to come at delta2 = 90 deg, where the wheel turns internal."""
+    flat = _trial_at(given, LAST_WHEEL_ANGLE)
+    return flat is not None and flat.alignment < 0.0
+
+
 def ratio_residual(cones: PitchCones) -> float:
     """Left side of [gonzalez-fuentes-2022, (1)] over z1 + z2, mm: zero when the ratio holds."""
     z1, z2 = cones.teeth
@@ -145,11 +153,10 @@ def _aligned_trial(given: FaceHobbedInputs) -> _Trial | None:
         trial = _trial_at(given, delta2)
         return trial.alignment if trial is not None else float("nan")
 
-    last = 0.5 * pi * (1.0 - 1.0e-9)
     previous = previous_value = float("nan")
     roots: list[float] = []
     for i in range(1, WHEEL_ANGLE_STEPS + 1):
-        delta2 = last * i / WHEEL_ANGLE_STEPS
+        delta2 = LAST_WHEEL_ANGLE * i / WHEEL_ANGLE_STEPS
         value = alignment(delta2)
         if isfinite(value) != isfinite(previous_value) and i > 1:
             edge = _edge_of_validity(alignment, previous, delta2)
@@ -163,6 +170,7 @@ def _aligned_trial(given: FaceHobbedInputs) -> _Trial | None:
             roots.append(bracketed_root(alignment, low, high))
         previous, previous_value = delta2, value
     trials = [trial for root in roots if (trial := _trial_at(given, root)) is not None]
+    trials = [trial for trial in trials if abs(trial.alignment) < ALIGNED]  # not a jump
     # some shaft angles above 100 deg have a second pair of cones with delta2 near 20 deg; the least
     # offset angle is on the branch that a = 0 starts from
     return min(trials, key=lambda trial: abs(trial.beta_m12), default=None)

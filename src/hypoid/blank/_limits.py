@@ -9,11 +9,11 @@ from math import acos, atan2, cos, degrees, floor, isfinite, log, log10, pi, rad
 
 from hypoid.geometry import Problem
 
-from ._alignment import FaceHobbedInputs, nearest_blade_slope
+from ._alignment import FaceHobbedInputs, nearest_blade_slope, wants_internal_wheel
 from ._pitch_cones import PitchCones
 
-GROWTH = 1.1  # step of the search for a value that works
-GROWTH_STEPS = 30
+# how far a value is moved, up and down, in the search for one that works
+GROWTH = tuple(1.1**power for power in (1, 2, 3, 4, 6, 8, 11, 15, 20, 27))
 
 Works = Callable[[FaceHobbedInputs], bool]
 Limit = tuple[str, str, Callable[[float], bool], str, str]
@@ -27,7 +27,10 @@ class PitchConeFault(Enum):
         "pitch apexes; change offset, pinion spiral angle or cutter radius"
     )
     BEYOND_THE_WHEEL = "the pinion axis passes beyond the wheel; lower the offset"
-    INTERNAL_WHEEL = "the wheel would be an internal gear; lower the shaft angle"
+    INTERNAL_WHEEL = (
+        "the wheel would be an internal gear, its pitch angle above 90 deg; lower the shaft angle, "
+        "or change offset, pinion spiral angle or cutter radius"
+    )
     SLOPE_ANGLE = (
         "the cutter is smaller than its slope angle allows, m_b z0 > 2 r_c0; take a larger cutter "
         "or fewer blade groups"
@@ -51,13 +54,12 @@ def check_ranges(values: dict[str, float]) -> list[Problem]:
 def diagnose(given: FaceHobbedInputs, cones: PitchCones | None) -> PitchConeFault | None:
     """What is wrong with the outcome of `solve_aligned_cones`, if anything."""
     if cones is None:
-        delta2 = atan2(sin(given.shaft_angle), given.z1 / given.z2 + cos(given.shaft_angle))
         if abs(given.offset) >= given.wheel_mean_radius:
             return PitchConeFault.BEYOND_THE_WHEEL
-        if delta2 >= 0.5 * pi:
-            return PitchConeFault.INTERNAL_WHEEL
         if nearest_blade_slope(given)[0] > 1.0:
             return PitchConeFault.SLOPE_ANGLE
+        if _bevel_wheel_angle(given) >= 0.5 * pi or wants_internal_wheel(given):
+            return PitchConeFault.INTERNAL_WHEEL
         return PitchConeFault.NO_SOLUTION
     if cones.mean_normal_module * given.blade_groups > 2.0 * given.cutter_radius:
         return PitchConeFault.SLOPE_ANGLE
@@ -81,9 +83,9 @@ def explain(
         turn = degrees(cones.offset_angle_pitch_plane)
         limit = f"more than the offset angle in the pitch plane ({turn:.4g} deg here)"
         return _problem(given, "pinion_spiral_angle", limit, fault, works)
-    if fault is PitchConeFault.INTERNAL_WHEEL:
+    if fault is PitchConeFault.INTERNAL_WHEEL and _bevel_wheel_angle(given) >= 0.5 * pi:
         widest = degrees(pi - acos(given.z1 / given.z2))
-        limit = f"about {widest:.4g} deg at most for {given.z1}/{given.z2} teeth"
+        limit = f"about {widest:.4g} deg at most for {given.z1}/{given.z2} teeth without offset"
         return _problem(given, "shaft_angle", limit, fault, works)
     if fault is PitchConeFault.BEYOND_THE_WHEEL:
         limit = f"less than the wheel's mean radius, {given.wheel_mean_radius:g} mm"
@@ -91,15 +93,20 @@ def explain(
     return _least_change(given, fault, works)
 
 
+def _bevel_wheel_angle(given: FaceHobbedInputs) -> float:
+    """Wheel pitch angle that the pair would have without offset, rad (ISO 23509, (1)-(3))."""
+    return atan2(sin(given.shaft_angle), given.z1 / given.z2 + cos(given.shaft_angle))
+
+
 def nearest_working(given: FaceHobbedInputs, name: str, works: Works) -> float | None:
     """Nearest value of one input (mm or deg, two digits) that works, up or down; None if none."""
     start: float = getattr(given, name)
     is_angle = name in _ANGLES
-    for step in range(1, GROWTH_STEPS + 1):
-        for factor in (GROWTH**-step, GROWTH**step):
+    for growth in GROWTH:
+        for factor in (1.0 / growth, growth):
             shown = round_off(degrees(start * factor) if is_angle else start * factor)
             value = radians(shown) if is_angle else shown
-            too_wide = is_angle and value > radians(85.0) and value > start
+            too_wide = name == "pinion_spiral_angle" and value > max(radians(85.0), start)
             grown_offset = name == "offset" and factor > 1.0
             if not too_wide and not grown_offset and works(replace(given, **{name: value})):
                 return shown
@@ -107,9 +114,9 @@ def nearest_working(given: FaceHobbedInputs, name: str, works: Works) -> float |
 
 
 def _least_change(given: FaceHobbedInputs, fault: PitchConeFault, works: Works) -> Problem:
-    """The number among offset, spiral and cutter that needs the least change to find cones."""
+    """The one of the searched numbers that needs the least change to find cones."""
     found: list[tuple[float, str, float]] = []
-    for name in ("offset", "cutter_radius", "pinion_spiral_angle"):
+    for name in _PATHS:
         start: float = getattr(given, name)
         best = nearest_working(given, name, works) if start else None
         if best is not None:

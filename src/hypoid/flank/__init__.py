@@ -2,9 +2,12 @@
 
 from ._chart import Chart as Chart
 from ._chart import PitchCone as PitchCone
+from ._chart import chart as chart
 from ._envelope import Surface as Surface
 from ._envelope import axial_radial_angle as axial_radial_angle
+from ._envelope import placed as placed
 from ._envelope import position_and_normal as position_and_normal
+from ._envelope import solve_pair as solve_pair
 from ._flank import CUT_PIECES as CUT_PIECES
 from ._flank import Flank as Flank
 from ._flank import FlankPoints as FlankPoints

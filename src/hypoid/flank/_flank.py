@@ -66,7 +66,7 @@ class FlankPoints:
         return self._curvature[2:].T.reshape(-1, 2, 3)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Flank:
     """One flank of a member, from its cutting edge and machine settings.
 

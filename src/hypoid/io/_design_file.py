@@ -1,7 +1,7 @@
 """The design file, schema 1: its tables and keys, their units and ranges, as pydantic models.
 
 Every key carries what is expected of it and an example; messages and the JSON Schema are made of
-these. What ties several keys together stands in `_relations.py`.
+these. What ties several keys together stands in `_problems.py`.
 """
 
 from __future__ import annotations
@@ -119,7 +119,7 @@ class Blank(Table):
     """[blank]: tooth depths in data type II of ISO 23509."""
 
     mean_addendum_factor: float = _key("a plain number from 0 to 1", 0.5, default=0.5, ge=0, le=1)
-    depth_factor: float = _key("a plain number above 0, up to 4", 2.0, default=2.0, gt=0, le=4)
+    depth_factor: float = _key("a plain number above 0, up to 4", 1.75, default=1.75, gt=0, le=4)
     clearance_factor: float = _key(
         "a plain number from 0 to 1", 0.125, default=0.125, ge=0, le=1
     )
@@ -162,7 +162,7 @@ class Contact(Table):
     """[contact]."""
 
     marking_thickness: Length = _key(
-        "a length above 0", "0.0065 mm", default=6.35e-3, gt=0, le=_LARGEST
+        "a length above 0", "0.0065 mm", default="6.35 um", validate_default=True, gt=0, le=_LARGEST
     )
 
 

@@ -14,7 +14,7 @@ from ..machine import SummarySheet, to_sheet
 Direction = Literal["drive", "coast"]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Member:
     """A gear: its blank, the head that cuts it and its two active flanks."""
 
@@ -47,7 +47,7 @@ class Assumption:
     reason: str
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class GearPair:
     """A spiral bevel or hypoid pair."""
 

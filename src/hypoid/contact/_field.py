@@ -1,0 +1,133 @@
+"""Angle fields of two mates, and the lead of the wheel over a grid of pinion points.
+
+At (z, rho) a flank is an angle. A pinion point carried into the wheel frame would touch the wheel's
+flank if the wheel led by sense (field - angle); the greatest lead over all points is where the
+wheel stands (methods of contact, 2). Fields are charts split where the relief begins, so each
+half is smooth.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import jax
+import jax.numpy as jnp
+import numpy as np
+
+from ..flank import Chart, Flank, PitchCone, chart
+from ..geometry import Batch, Vector, horner
+from ._mounting import Mounting, to_wheel
+
+
+@jax.tree_util.register_dataclass
+@dataclass(frozen=True)
+class AngleField:
+    """A left-hand flank as an angle over (S, H), between its fillet limit and its blade's end."""
+
+    lower: Chart
+    upper: Chart
+    cone: PitchCone
+    tip: float  # mm, the tooth's addendum
+
+    def angle(self, distance: Batch, height: Batch) -> Batch:
+        """Angle about the member's axis, rad, at cone distance S and height H."""
+        split = self.lower.bounds(distance)[1]
+        below = horner(self.lower.angle, *self.lower.coordinates(distance, height))
+        above = horner(self.upper.angle, *self.upper.coordinates(distance, height))
+        return jnp.where(height < split, below, above)
+
+    def holds(self, distance: Batch, height: Batch) -> Batch:
+        """Whether (S, H) lies on the active flank."""
+        slack = 1e-9
+        inside = (distance >= self.lower.toe - slack) & (distance <= self.lower.heel + slack)
+        inside &= height <= self.tip + slack
+        return inside & (height >= self.lower.bounds(distance)[0] - slack)
+
+
+@lru_cache(maxsize=64)
+def angle_field(flank: Flank) -> AngleField:
+    """The angle field of a flank, from two charts that meet where its relief begins."""
+    piece = flank.pieces["flank"]
+    low, high, start = float(piece.low), float(piece.high), float(piece.relief_from)
+    relieved = float(piece.relief) != 0.0 and low < start < high
+    split = start if relieved else 0.5 * (low + high)
+    parts = (
+        replace(piece, high=split, relief=0.0) if relieved else replace(piece, high=split),
+        replace(piece, low=split),
+    )
+    lower, upper = (
+        chart(
+            flank.surface, p, flank.cone, flank.toe, flank.heel, flank.theta_start, rooted=False
+        )
+        for p in parts
+    )
+    return AngleField(lower, upper, flank.cone, flank.tip)
+
+
+@dataclass(frozen=True)
+class FlankNodes:
+    """A grid of points over the active flank of a pinion, between fillet limit and tip."""
+
+    distance: np.ndarray  # (columns,) S, mm, toe to heel
+    share: np.ndarray  # (rows,) 0 at the fillet limit, 1 at the tip
+    height: np.ndarray  # (rows, columns) H, mm
+    point: np.ndarray  # (3, rows * columns), left-hand pinion frame, mm
+    normal: np.ndarray  # (3, rows * columns)
+    s: np.ndarray
+    theta: np.ndarray
+
+
+@lru_cache(maxsize=64)
+def flank_nodes(flank: Flank, columns: int, rows: int) -> FlankNodes:
+    """Exact points of a flank over its active part."""
+    distance = np.linspace(flank.toe, flank.heel, columns)
+    share = np.linspace(0.0, 1.0, rows)
+    low = np.asarray(angle_field(flank).lower.bounds(distance)[0])
+    height = low + np.outer(share, flank.tip - low)
+    at = flank.at_cone(np.broadcast_to(distance, height.shape).ravel(), height.ravel())
+    hand = np.array([1.0, -1.0 if flank.mirrored else 1.0, 1.0])
+    return FlankNodes(
+        distance,
+        share,
+        height,
+        (at.position * hand).T,
+        (at.normal * hand).T,
+        at.s,
+        at.theta,
+    )
+
+
+def lead(mount: Mounting, wheel: AngleField, phi: Batch, point: Vector) -> Batch:
+    """Lead of the wheel (rad, beyond z1/z2 phi) that would touch each pinion point; -inf off the mate.
+
+    The two angles are small and never wrap; a lead beyond half a pitch means that the point has
+    turned away to where the wheel's surface is met from behind.
+    """
+    x, y, z = to_wheel(mount, phi, point)
+    rho = jnp.sqrt(x * x + y * y)
+    distance, height = wheel.cone.cone_distance_height(z, rho)
+    value = mount.sense * (wheel.angle(distance, height) - jnp.arctan2(y, x))
+    excess = value - mount.wheel_zero - mount.ratio * phi
+    mine = wheel.holds(distance, height) & (jnp.abs(excess) < mount.half_pitch)
+    return jnp.where(mine, excess, -jnp.inf)
+
+
+@jax.jit
+def lead_grid(mount: Mounting, wheel: AngleField, phi: Batch, point: Vector) -> Batch:
+    """Leads (positions, points) for pinion angles phi (positions,) and points of (points,)."""
+    return jax.vmap(lambda angle: lead(mount, wheel, angle, point))(phi)
+
+
+@jax.jit
+def lead_on_flank(
+    mount: Mounting, pinion: AngleField, wheel: AngleField, phi: Batch, x: Batch, y: Batch
+) -> Batch:
+    """Leads at chart places of the pinion: x, y in [-1, 1] from toe to heel, fillet limit to tip."""
+    distance = 0.5 * (pinion.lower.toe + pinion.lower.heel)
+    distance = distance + 0.5 * (pinion.lower.heel - pinion.lower.toe) * x
+    low = pinion.lower.bounds(distance)[0]
+    height = low + 0.5 * (1.0 + y) * (pinion.tip - low)
+    z, rho = pinion.cone.axial_radial(distance, height)
+    angle = pinion.angle(distance, height)
+    return lead(mount, wheel, phi, (rho * jnp.cos(angle), rho * jnp.sin(angle), z))

@@ -1,0 +1,80 @@
+"""From the checked design file to what is asked of the program."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from pydantic import BaseModel
+
+from hypoid.design._spec import Assumption, ExactFaceHobbedSpec, SettingValue, TipRelief
+
+from ._design_file import DesignFile, Relief, Settings
+
+
+def spec_of(file: DesignFile) -> ExactFaceHobbedSpec:
+    """The numbers of a design file, with all that the file or the program assumed."""
+    pair, pinion, wheel, blank, cutting = file.pair, file.pinion, file.wheel, file.blank, file.cutting
+    radius = wheel.mean_pitch_radius or (wheel.mean_pitch_diameter or 0.0) / 2
+    return ExactFaceHobbedSpec(
+        title=file.title,
+        source=file.source,
+        assumed=(*(Assumption(a.value, a.reason) for a in file.assumed), *_defaults_used(file)),
+        shaft_angle=pair.shaft_angle,
+        offset=pair.offset,
+        pinion_teeth=pinion.teeth,
+        wheel_teeth=wheel.teeth,
+        pinion_hand=pinion.hand,
+        pinion_spiral_angle=pinion.mean_spiral_angle,
+        wheel_mean_radius=radius,
+        wheel_face_width=wheel.face_width,
+        mean_addendum_factor=blank.mean_addendum_factor,
+        depth_factor=blank.depth_factor,
+        clearance_factor=blank.clearance_factor,
+        cutter_radius=cutting.cutter_radius,
+        blade_groups=cutting.blade_groups,
+        pressure_angle=cutting.pressure_angle,
+        tip_edge_radius_factor=cutting.tip_edge_radius_factor,
+        tip_relief=_relief(cutting.tip_relief),
+        marking_thickness=file.contact.marking_thickness,
+        setting_changes=_setting_changes(file),
+    )
+
+
+def _relief(relief: Relief | None) -> TipRelief | None:
+    if relief is None:
+        return None
+    return TipRelief(relief.coefficient, relief.height, relief.measured_from, relief.flanks)
+
+
+def _setting_changes(file: DesignFile) -> dict[str, Mapping[str, SettingValue]]:
+    """By flank; what stands at a flank goes before what stands at its member."""
+    changes: dict[str, Mapping[str, SettingValue]] = {}
+    for name, member in (("pinion", file.pinion), ("wheel", file.wheel)):
+        for side, flank in (("concave", member.concave), ("convex", member.convex)):
+            if change := _given(member.settings) | _given(flank.settings):
+                changes[f"{name}.{side}"] = change
+    return changes
+
+
+def _given(settings: Settings) -> dict[str, SettingValue]:
+    return {
+        name: tuple(value) if isinstance(value, list) else value
+        for name, value in settings.model_dump(exclude_none=True).items()
+    }
+
+
+def _defaults_used(file: DesignFile) -> Iterator[Assumption]:
+    """Numbers that the program put in because the file does not give them."""
+    tables: dict[str, BaseModel | None] = {
+        "blank": file.blank,
+        "cutting": file.cutting,
+        "cutting.tip_relief": file.cutting.tip_relief,
+        "contact": file.contact,
+    }
+    for path, table in tables.items():
+        for name, field in type(table).model_fields.items() if table else ():
+            if field.default is not None and not field.is_required() and name not in (
+                table.model_fields_set if table else ()
+            ):
+                reason = f"not given; the program's default is {field.default}"
+                yield Assumption(f"{path}.{field.alias or name}", reason)
