@@ -170,18 +170,19 @@ class Sweep:
         px, py, pz = carried(self.settings, (at.real, at.imag, z), theta, phi)
         along, rho = pz + self.cone.apex_beyond, np.hypot(px, py)
         sine, cosine = float(self.cone.sine), float(self.cone.cosine)
-        return along * cosine + rho * sine, rho * cosine - along * sine, np.arctan2(py, px)
+        work = self.settings.roll_to_blade_ratio * theta + self.settings.ratio_of_roll * phi
+        angle = np.angle((px + 1j * py) * np.exp(1j * work)) - work  # does not wrap
+        return along * cosine + rho * sine, rho * cosine - along * sine, angle
 
     def reach(
         self, distance: float, lengths: Array, phi: Array, theta: Array
     ) -> tuple[Array, Array, Array]:
         """Turn every outline point until it stands at the cone distance: theta, height, angle."""
-        h = 1e-5
-        for _ in range(30):
-            ahead, behind = (self.place(lengths, theta + d, phi)[0] for d in (h, -h))
-            step = (0.5 * (ahead + behind) - distance) * 2.0 * h / (ahead - behind)
-            theta = theta - np.clip(step, -0.03, 0.03)
-            if np.abs(step).max() < 1e-13:
+        for _ in range(25):
+            here, ahead = (self.place(lengths, theta + h, phi)[0] for h in (0.0, 1e-7))
+            step = (here - distance) * 1e-7 / (ahead - here)
+            theta = theta - np.clip(step, -0.05, 0.05)
+            if np.abs(step).max() < 1e-12:
                 break
         reached, height, angle = self.place(lengths, theta, phi)
         passing = (np.abs(reached - distance) < 1e-9) & (np.abs(theta - self.theta_start) < WINDOW)
@@ -202,7 +203,6 @@ class Sweep:
         lengths, phi = np.linspace(low, shank, 161), np.linspace(-0.6, 0.6, 121)
         grid = np.meshgrid(lengths, phi, indexing="ij")
         theta, h, angle = self.reach(distance, *grid, np.full_like(grid[0], self.theta_start))
-        angle = np.unwrap(np.unwrap(angle, axis=1), axis=0)
         for i, height in enumerate(heights):
             best, s_best, p_best, t_best = self._extreme(grid, theta, h, angle, height, sign)
             ds, dp = lengths[1] - lengths[0], phi[1] - phi[0]

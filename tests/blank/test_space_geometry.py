@@ -221,7 +221,6 @@ def test_face_and_root_cones_keep_the_clearance(
     tip, root = found.face_apex_beyond_crossing, found.root_apex_beyond_crossing
     face_to_root = distance(found.face_angle[0], tip[0], found.root_angle[1], root[1])
     root_to_face = distance(found.root_angle[0], root[0], found.face_angle[1], tip[1])
-    # without offset the plane's turn is the root of a rounding error
     assert face_to_root == pytest.approx(depths.clearance, abs=1e-9)
     assert root_to_face == pytest.approx(depths.clearance, abs=1e-9)
 
@@ -259,7 +258,7 @@ def test_without_offset_the_cones_are_a_spiral_bevel_pair(sigma: float) -> None:
     near = solved(sigma, 1e-6, 11)
     assert near.wheel_pitch_angle == pytest.approx(bevel.wheel_pitch_angle, abs=1e-7)
     assert near.pinion_mean_radius == pytest.approx(bevel.pinion_mean_radius, abs=1e-6)
-    # to first order in the offset, P sits at azimuth a / (2 r_m2 ...) on both sides
+    # a = r_m1 eta + r_m2 xi to first order
     assert near.wheel_azimuth * 100.0 + near.pinion_azimuth * near.pinion_mean_radius == (
         pytest.approx(1e-6, rel=1e-9)
     )

@@ -119,6 +119,9 @@ def lead_grid(mount: Mounting, wheel: AngleField, phi: Batch, point: Vector) -> 
     return jax.vmap(lambda angle: lead(mount, wheel, angle, point))(phi)
 
 
+lead_each = jax.jit(lead)  # one pinion angle a point
+
+
 @jax.jit
 def lead_on_flank(
     mount: Mounting, pinion: AngleField, wheel: AngleField, phi: Batch, x: Batch, y: Batch

@@ -10,11 +10,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 
+from ..flank import Flank
 from ..geometry import Batch, Scalar, Vector
 from ..pair import Direction, GearPair
 
@@ -47,6 +49,13 @@ class Mounting:
     half_pitch: Scalar  # of the wheel, rad: a lead beyond it belongs to another tooth
 
 
+@lru_cache(maxsize=64)
+def _pitch_point_angle(flank: Flank, distance: float) -> float:
+    """Angle of the mean point about its own axis, read as a left-hand member, rad."""
+    x, y, _ = flank.at_cone([distance], [0.0]).position[0]
+    return math.atan2(-y if flank.mirrored else y, x)
+
+
 def mounting(
     pair: GearPair, direction: Direction, misalignment: Misalignment | None = None
 ) -> Mounting:
@@ -58,12 +67,8 @@ def mounting(
     sense = 1.0 if direction == "drive" else -1.0
     pinion, wheel = pair.mates(direction)
 
-    def pitch_point_angle(flank: object, distance: float) -> float:
-        x, y, _ = flank.at_cone([distance], [0.0]).position[0]  # type: ignore[attr-defined]
-        return math.atan2(-y if flank.mirrored else y, x)  # type: ignore[attr-defined]
-
-    pinion_angle = pitch_point_angle(pinion, cones.pinion_mean_cone_distance)
-    wheel_angle = pitch_point_angle(wheel, cones.wheel_mean_cone_distance)
+    pinion_angle = _pitch_point_angle(pinion, cones.pinion_mean_cone_distance)
+    wheel_angle = _pitch_point_angle(wheel, cones.wheel_mean_cone_distance)
     out = error.pinion_axial
     return Mounting(
         axes=((-c, 0.0, s), (0.0, 1.0, 0.0), (s, 0.0, c)),  # pyright: ignore

@@ -61,6 +61,9 @@ class UnloadedContact:
         """Pinion pitch, rad."""
         return 2.0 * np.pi / self.pair.pinion.teeth
 
+    def pair_teeth(self, member: str) -> int:
+        return self.pair.pinion.teeth if member == "pinion" else self.pair.wheel.teeth
+
     @cached_property
     def cycle(self) -> np.ndarray:
         """Indices into ``phi`` of the reported positions, centred on pinion angle zero."""
@@ -141,6 +144,15 @@ class UnloadedContact:
         """The same path on the wheel as (S, H), mm."""
         z, rho = self.points.wheel_z[self.on_path], self.points.wheel_rho[self.on_path]
         return self.wheel_flank.cone.cone_distance_height(z, rho)
+
+    @cached_property
+    def contact_point(self) -> tuple[float, float]:
+        """(S, H) of the pinion, mm, at pinion angle zero; NaN if the flanks do not meet there."""
+        here = np.flatnonzero(self.on_path == len(self.phi) // 2)
+        if not len(here):
+            return (np.nan, np.nan)
+        distance, height = self.path
+        return float(distance[here[0]]), float(height[here[0]])
 
     @cached_property
     def leading(self) -> np.ndarray:

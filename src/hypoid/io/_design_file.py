@@ -63,7 +63,7 @@ class Settings(Table):
     ratio_of_roll: float | None = _key("a plain number above 0", 12.431511, default=None, gt=0)
     helical_motion: LengthPerAngle | None = _key("length per angle", "0.1 mm/rad", default=None)
     modified_roll: list[float] | None = _key(
-        "a list of plain numbers", [0.0, 0.001], default=None, max_length=8
+        "a list of up to 5 plain numbers, of orders 2 to 6", [0.0, 0.001], default=None, max_length=5
     )
 
 
