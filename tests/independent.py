@@ -200,7 +200,7 @@ class Sweep:
         shank = self.blade.shank_height / math.cos(self.blade.pressure_angle)
         low = -straight - arc - self.blade.land
         out = np.full(len(heights), np.nan)
-        lengths, phi = np.linspace(low, shank, 161), np.linspace(-0.6, 0.6, 121)
+        lengths, phi = np.linspace(low, shank, 161), np.linspace(-0.36, 0.36, 241)
         grid = np.meshgrid(lengths, phi, indexing="ij")
         theta, h, angle = self.reach(distance, *grid, np.full_like(grid[0], self.theta_start))
         for i, height in enumerate(heights):

@@ -3,24 +3,30 @@
 from __future__ import annotations
 
 from dataclasses import asdict
+from typing import Literal
 
 from ._options import AsJson, DesignPath
 from ._output import report_faults, say, write_json
 
+DIRECTIONS: tuple[Literal["drive", "coast"], ...] = ("drive", "coast")
+
 
 def check(file: DesignPath, /, *, json: AsJson = False) -> int:
-    """Whether the design file is sound, what it assumes, and whether its blank has a fault."""
-    from hypoid.design import spec_blank
-    from hypoid.io import read_spec
+    """Whether a design is sound, what it assumes, and every fault of blank, flanks and contact."""
+    from hypoid import read
+    from hypoid.contact import faults, tip_interference, unloaded_contact
 
-    spec = read_spec(file)
-    faults = [fault.value for fault in spec_blank(spec).faults]
+    pair = read(file)
+    named = [*pair.faults]
+    for direction in DIRECTIONS:
+        result = unloaded_contact(pair, direction)
+        named += faults(result, tip_interference(result))
     if json:
-        assumed = [asdict(assumption) for assumption in spec.assumed]
-        write_json({"title": spec.title, "assumed": assumed, "faults": faults})
+        assumed = [asdict(assumption) for assumption in pair.assumed]
+        write_json({"title": pair.title, "assumed": assumed, "faults": named})
     else:
-        for assumption in spec.assumed:
-            print(f"assumed: {assumption.value}: {assumption.reason}")
-    if not faults:
+        for assumption in pair.assumed:
+            print(f"Assumed {assumption.value}: {assumption.reason}")
+    if not named:
         say(f"{file}: no fault found.")
-    return report_faults(faults)
+    return report_faults(named)

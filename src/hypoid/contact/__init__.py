@@ -1,5 +1,6 @@
 """Unloaded contact of a mounted pair: motion curve, path, pattern, ease-off, misalignment."""
 
+from ._faults import faults as faults
 from ._interference import TipInterference as TipInterference
 from ._interference import tip_interference as tip_interference
 from ._misalignment import STEPS as STEPS

@@ -85,16 +85,13 @@ def flank_nodes(flank: Flank, columns: int, rows: int) -> FlankNodes:
     share = np.linspace(0.0, 1.0, rows)
     low = np.asarray(angle_field(flank).lower.bounds(distance)[0])
     height = low + np.outer(share, flank.tip - low)
-    at = flank.at_cone(np.broadcast_to(distance, height.shape).ravel(), height.ravel())
+    s, theta, _ = flank.parameters(
+        np.broadcast_to(distance, height.shape).ravel(), height.ravel()
+    )
+    position, normal = flank.at_cutter(s, theta)
     hand = np.array([1.0, -1.0 if flank.mirrored else 1.0, 1.0])
     return FlankNodes(
-        distance,
-        share,
-        height,
-        (at.position * hand).T,
-        (at.normal * hand).T,
-        at.s,
-        at.theta,
+        distance, share, height, (position * hand).T, (normal * hand).T, s, theta
     )
 
 

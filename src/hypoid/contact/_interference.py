@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from ..flank import Flank
 from ._field import angle_field
 from ._mounting import to_pinion, to_wheel
 from ._unloaded import UnloadedContact
@@ -20,6 +19,7 @@ from ._unloaded import UnloadedContact
 Array = np.ndarray[Any, Any]
 REACH = 0.1  # mm above the fillet limit that is still looked at
 NOTICEABLE = 1e-4  # mm: shallower than a tenth of a micrometre is not reported
+STEP = 1e-4  # mm, for the slope of the angle field
 
 
 @dataclass(frozen=True)
@@ -36,11 +36,6 @@ class TipInterference:
     @property
     def found(self) -> bool:
         return self.depth > NOTICEABLE
-
-
-def _angle(points: Array, flank: Flank) -> Array:
-    """Angle about the axis of flank points (n, 3), read as a left-hand member, rad."""
-    return np.arctan2(-points[:, 1] if flank.mirrored else points[:, 1], points[:, 0])
 
 
 def tip_interference(contact: UnloadedContact, columns: int = 61) -> tuple[TipInterference, ...]:
@@ -60,9 +55,12 @@ def _deepest(
 ) -> TipInterference:
     pinion, wheel = contact.pinion_flank, contact.wheel_flank
     own, mate = (pinion, wheel) if tip_of == "pinion" else (wheel, pinion)
-    at = own.at_cone(np.linspace(own.toe, own.heel, columns), np.full(columns, own.tip))
+    s, theta, _ = own.parameters(
+        np.linspace(own.toe, own.heel, columns), np.full(columns, own.tip)
+    )
+    edge, _ = own.at_cutter(s, theta)
     m = len(contact.phi)
-    tip = np.tile(at.position, (m, 1))
+    tip = np.tile(edge, (m, 1))
     if own.mirrored:
         tip[:, 1] *= -1.0
     phi, turned = np.repeat(contact.phi, columns), np.repeat(turn, columns)
@@ -78,17 +76,18 @@ def _deepest(
     # the cut can only lie below the fillet limit, and shows a little above it at most
     limit = np.asarray(angle_field(mate).lower.bounds(distance)[0])
     near &= (height >= mate.root) & (height <= limit + REACH)
-    near &= np.isfinite(z)
-    index = np.flatnonzero(near)
-    found = mate.at(z[index], rho[index])
-    angle, normal = _angle(found.position, mate), found.normal
-    hand = -1.0 if mate.mirrored else 1.0
-    x, y = found.position[:, 0], hand * found.position[:, 1]
-    lever = x * hand * normal[:, 1] - y * normal[:, 0]  # rho n_t, outward
+    index = np.flatnonzero(near & np.isfinite(z))
+    s, h = distance[index], height[index]
+    angle = mate.chart_angle(s, h)
+    along = (mate.chart_angle(s + STEP, h) - mate.chart_angle(s - STEP, h)) / (2.0 * STEP)
+    across = (mate.chart_angle(s, h + STEP) - mate.chart_angle(s, h - STEP)) / (2.0 * STEP)
+    # arc length about the axis to normal distance: the tangential part of the unit normal
+    lever = rho[index] / np.sqrt(1.0 + rho[index] ** 2 * (along**2 + across**2))
+    outward = -1.0 if mate.side == "concave" else 1.0
     apart = np.arctan2(seen[index, 1], seen[index, 0]) - angle
     apart = (apart + np.pi) % (2.0 * np.pi) - np.pi
-    mine = found.ok & (np.abs(apart) < np.pi / contact.pair_teeth(mate.member) / 2.0)
-    gap = np.where(mine, apart * lever, np.inf)
+    mine = np.abs(apart) < np.pi / contact.pair_teeth(mate.member) / 2.0
+    gap = np.where(mine, apart * lever * outward, np.inf)
     if not len(gap) or not np.isfinite(gap).any():
         return TipInterference(tip_of, mate.name, 0.0, np.nan, np.nan, np.nan)
     worst = int(gap.argmin())

@@ -13,11 +13,10 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import jax
-import jax.numpy as jnp
 import numpy as np
 
 from ..flank import Flank
-from ..geometry import Batch, Scalar, Vector
+from ..geometry import Batch, Scalar, Vector, namespace
 from ..pair import Direction, GearPair
 
 
@@ -52,8 +51,8 @@ class Mounting:
 @lru_cache(maxsize=64)
 def _pitch_point_angle(flank: Flank, distance: float) -> float:
     """Angle of the mean point about its own axis, read as a left-hand member, rad."""
-    x, y, _ = flank.at_cone([distance], [0.0]).position[0]
-    return math.atan2(-y if flank.mirrored else y, x)
+    _, _, angle = flank.parameters([distance], [0.0])
+    return float(angle[0])
 
 
 def mounting(
@@ -87,8 +86,9 @@ def mounting(
 
 def to_wheel(mount: Mounting, phi: Batch, v: Vector, *, free: bool = False) -> Vector:
     """Carry a point (or, if free, a direction) of the pinion at pinion angle phi to the wheel frame."""
+    xp = namespace(phi, v)
     turn = mount.pinion_zero - mount.sense * phi
-    cosine, sine = jnp.cos(turn), jnp.sin(turn)
+    cosine, sine = xp.cos(turn), xp.sin(turn)
     x, y, z = cosine * v[0] - sine * v[1], sine * v[0] + cosine * v[1], v[2]
     turned = tuple(row[0] * x + row[1] * y + row[2] * z for row in mount.axes)
     if free:

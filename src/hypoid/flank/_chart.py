@@ -16,7 +16,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from ..cutter import EdgePiece
-from ..geometry import Batch, Batched, Scalar, fit, fit_line, horner, horner_line, nodes, on_unit
+from ..geometry import Batch, Batched, Scalar, fit, fit_line, horner, horner_line, namespace, nodes, on_unit
 from ._envelope import Surface, axial_radial_angle, newton_pair, value_and_jacobian
 
 COLUMNS, ROWS = 14, 12  # polynomial orders along S and across
@@ -67,7 +67,8 @@ class Chart:
         x = on_unit(self.toe, self.heel, distance)
         low, high = horner_line(self.low, x), horner_line(self.high, x)
         t = (height - low) / (high - low)
-        t = jnp.where(self.rooted > 0.5, jnp.sqrt(jnp.maximum(t, 0.0)), t)
+        xp = namespace(distance, height)
+        t = xp.where(self.rooted > 0.5, xp.sqrt(xp.maximum(t, 0.0)), t)
         return x, 2.0 * t - 1.0
 
 

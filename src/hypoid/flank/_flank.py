@@ -11,8 +11,9 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from ..cutter import EdgePiece
+from ..geometry import horner
 from ..machine import MachineSettings, generator
-from ._chart import Chart, PitchCone, chart
+from ._chart import Chart, PitchCone, chart, height_at
 from ._envelope import Surface
 from ._locate import curvatures, from_cutter, locate, locate_slowly, roots_near
 from ._status import PointStatus
@@ -159,6 +160,38 @@ class Flank:
         if self.mirrored:
             values[[1, 4]] *= -1.0
         return values[:3].T, values[3:].T
+
+    def parameters(self, distance: Any, height: Any) -> tuple[Array, Array, Array]:
+        """Edge parameter s (mm), cutter turn (rad) and angle about the axis (rad) at (S, H), mm.
+
+        On the flank piece and its extension only; the angle is that of a left-hand member and
+        never wraps. NaN where Newton does not arrive.
+        """
+        distance, height = (np.asarray(v, float).ravel() for v in (distance, height))
+        start = self.charts["flank"]
+        x, y = start.coordinates(distance, height)
+        x, y = np.clip(x, -1.0, 1.0), np.clip(y, -1.0, 1.0)
+        s, theta, angle, left, _ = height_at(
+            self.surface,
+            self.pieces["flank"],
+            self.cone,
+            distance,
+            height,
+            horner(start.s, x, y),
+            horner(start.theta, x, y),
+        )
+        missed = ~(left < TOLERANCE)
+        return tuple(np.where(missed, np.nan, v) for v in (s, theta, angle))  # pyright: ignore
+
+    def chart_angle(self, distance: Array, height: Array) -> Array:
+        """Angle about the axis (rad, left hand) at (S, H), mm, read from the charts of flank and fillet.
+
+        Quick and without compilation; as good as the charts' own ``error``.
+        """
+        fillet, flank = self.charts["fillet"], self.charts["flank"]
+        x, y = fillet.coordinates(distance, height)
+        u, v = flank.coordinates(distance, height)
+        return np.where(y <= 1.0, horner(fillet.angle, x, y), horner(flank.angle, u, v))
 
     def grid(self, rows: int, columns: int) -> tuple[Array, Array]:
         """Cone distances (columns,) and heights (rows,) that span the blank, toe to heel, root to tip."""

@@ -1,13 +1,29 @@
-"""Files: design files in, grids and texts out. Units and notation live here and nowhere else."""
+"""Files: design files in, grids and texts out. Units and notation live here and nowhere else.
+
+Names that need NumPy are loaded when first asked for.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 from ._design_file import json_schema as json_schema
 from ._examples import example_files as example_files
-from ._grid import FlankGrid as FlankGrid
-from ._grid import grid_csv as grid_csv
-from ._grid import grid_json as grid_json
 from ._quantity import Kind as Kind
 from ._quantity import QuantityError as QuantityError
 from ._quantity import parse as parse
 from ._read import parse_spec as parse_spec
 from ._read import read_spec as read_spec
 from ._write import write_text as write_text
+
+if TYPE_CHECKING:
+    from ._grid import FlankGrid as FlankGrid
+    from ._grid import grid_csv as grid_csv
+    from ._grid import grid_json as grid_json
+
+_LAZY = ("FlankGrid", "grid_csv", "grid_json")
+
+
+def __getattr__(name: str) -> Any:
+    if name in _LAZY:
+        return getattr(import_module("._grid", __name__), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -70,6 +70,17 @@ class GearPair:
             return self.pinion.concave, self.wheel.convex
         return self.pinion.convex, self.wheel.concave
 
+    @property
+    def faults(self) -> tuple[str, ...]:
+        """What is wrong with the pair before its flanks meet: its blank, and undercut."""
+        undercut = (
+            f"The {flank.name} flank is undercut or cannot be generated between toe and heel; "
+            "raise the pressure angle, lower the dedendum or use more teeth."
+            for flank in self.flanks()
+            if not flank.generated
+        )
+        return (*(fault.value for fault in self.blank.faults), *undercut)
+
     def flanks(self) -> Iterator[Flank]:
         for member in (self.pinion, self.wheel):
             yield member.concave
