@@ -8,6 +8,7 @@ afterwards (notes of 2022, pitfalls).
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import jax
@@ -44,11 +45,21 @@ def _wheel_seen(surface: Surface, piece: EdgePiece, s: Batch, theta: Batch) -> t
     return z, rho, size * radial, size * nz, size * tangential, jnp.arctan2(y, x) - at.turn
 
 
-def _with_derivatives(function, a: Batch, b: Batch):  # pyright: ignore
+Seen = tuple[Batch, ...]
+
+
+def _with_derivatives(
+    function: Callable[[Batch, Batch], Seen], a: Batch, b: Batch
+) -> tuple[Seen, Seen, Seen]:
+    """Values and their derivatives by a and by b: both tangents in one pass, to trace less."""
     one, zero = jnp.ones_like(a), jnp.zeros_like(a)
-    value, by_a = jax.jvp(function, (a, b), (one, zero))
-    _, by_b = jax.jvp(function, (a, b), (zero, one))
-    return value, by_a, by_b
+
+    def push(da: Batch, db: Batch) -> tuple[Seen, Seen]:
+        return jax.jvp(function, (a, b), (da, db))
+
+    tangents = (jnp.stack([one, zero]), jnp.stack([zero, one]))
+    value, slopes = jax.vmap(push, out_axes=(None, 0))(*tangents)
+    return value, tuple(d[0] for d in slopes), tuple(d[1] for d in slopes)
 
 
 def _refine(
@@ -69,56 +80,56 @@ def _refine(
     def wheel(a: Batch, b: Batch) -> tuple[Batch, ...]:
         return _wheel_seen(surfaces[1], pieces[1], a, b)
 
-    def system(at: tuple[Batch, ...]):  # pyright: ignore
+    def look(at: Seen) -> tuple[Seen, Seen]:
+        """Newton's step at ``at``, and what there is to say of that place."""
         p, pa, pb = _with_derivatives(pinion, at[0], at[1])
         w, wc, wd = _with_derivatives(wheel, at[2], at[3])
-        places = (p[0] - w[0], p[1] - w[1])
-        normals = (p[2] + w[2], p[3] + w[3])
-        # follow each pinion parameter at equal (z, rho): how the wheel parameters move with it
-        to_match = (wc[0], wd[0], wc[1], wd[1])
-        by_a = solve_pair(to_match, pa[0], pa[1])
-        by_b = solve_pair(to_match, pb[0], pb[1])
-        by_f = solve_pair(to_match, *places)
+        # how the wheel's parameters follow at equal (z, rho): each pinion parameter, and the rest
+        match = (wc[0], wd[0], wc[1], wd[1])
+        by_a, by_b = solve_pair(match, pa[0], pa[1]), solve_pair(match, pb[0], pb[1])
+        by_rest = solve_pair(match, p[0] - w[0], p[1] - w[1])
 
-        def follow(k: int, move: tuple[Batch, Batch]) -> Batch:
+        def follow(k: int, move: Seen) -> Batch:
             return wc[k] * move[0] + wd[k] * move[1]
 
-        reduced = (
-            pa[2] + follow(2, by_a),
-            pb[2] + follow(2, by_b),
-            pa[3] + follow(3, by_a),
-            pb[3] + follow(3, by_b),
+        # the sum of both normals (radial, axial) over the pinion's parameters
+        turn_a = (pa[2] + follow(2, by_a), pa[3] + follow(3, by_a))
+        turn_b = (pb[2] + follow(2, by_b), pb[3] + follow(3, by_b))
+        apart = (p[2] + w[2], p[3] + w[3])
+        da, db = solve_pair(
+            (turn_a[0], turn_b[0], turn_a[1], turn_b[1]),
+            -apart[0] - follow(2, by_rest),
+            -apart[1] - follow(3, by_rest),
         )
-        rest = (normals[0] + follow(2, by_f), normals[1] + follow(3, by_f))
-        return p, pa, pb, w, places, normals, by_a, by_b, by_f, reduced, rest
-
-    def step(_: int, at: tuple[Batch, ...]) -> tuple[Batch, ...]:
-        *_, by_a, by_b, by_f, reduced, rest = system(at)
-        da, db = solve_pair(reduced, -rest[0], -rest[1])
-        k = 1.0 / jnp.maximum(
-            1.0, jnp.maximum(jnp.abs(da) / LIMIT_S, jnp.abs(db) / LIMIT_THETA)
-        )
+        k = 1.0 / jnp.maximum(1.0, jnp.maximum(jnp.abs(da) / LIMIT_S, jnp.abs(db) / LIMIT_THETA))
         da, db = jnp.nan_to_num(k * da), jnp.nan_to_num(k * db)
-        dc = by_a[0] * da + by_b[0] * db + by_f[0]
-        dd = by_a[1] * da + by_b[1] * db + by_f[1]
-        return at[0] + da, at[1] + db, at[2] + jnp.nan_to_num(dc), at[3] + jnp.nan_to_num(dd)
+        dc = by_a[0] * da + by_b[0] * db + by_rest[0]
+        dd = by_a[1] * da + by_b[1] * db + by_rest[1]
+        step = (da, db, jnp.nan_to_num(dc), jnp.nan_to_num(dd))
 
-    at = jax.lax.fori_loop(0, STEPS, step, (s1, theta1, s2, theta2))
-    p, pa, pb, w, places, normals, *_, reduced, _ = system(at)
-    lead = mount.sense * (w[5] - p[5]) - mount.wheel_zero - mount.ratio * phi
-    left = jnp.abs(places[0]) + jnp.abs(places[1]) + 10.0 * (jnp.abs(normals[0]) + jnp.abs(normals[1]))
-    # Hessian of the lead over the pinion's parameters: -sense/(rho m_t) t_i . d(n1 + n2)/dp_j
-    scale = mount.sense / (p[1] * p[4])
+        lead = mount.sense * (w[5] - p[5]) - mount.wheel_zero - mount.ratio * phi
+        left = jnp.abs(p[0] - w[0]) + jnp.abs(p[1] - w[1])
+        left = left + 10.0 * (jnp.abs(apart[0]) + jnp.abs(apart[1]))
+        # Hessian of the lead over the pinion's parameters: sense/(rho n_t) t_i . d(n1 + n2)/dp_j
+        scale = mount.sense / (p[1] * p[4])
 
-    def entry(t: tuple[Batch, ...], radial: Batch, axial: Batch) -> Batch:
-        tangential = -(p[2] * radial + p[3] * axial) / p[4]
-        return scale * (t[1] * radial + t[0] * axial + p[1] * t[5] * tangential)
+        def entry(t: Seen, turn: Seen) -> Batch:
+            tangential = -(p[2] * turn[0] + p[3] * turn[1]) / p[4]
+            return scale * (t[1] * turn[0] + t[0] * turn[1] + p[1] * t[5] * tangential)
 
-    h_aa = entry(pa, reduced[0], reduced[2])
-    h_ab = entry(pa, reduced[1], reduced[3])
-    h_bb = entry(pb, reduced[1], reduced[3])
-    left = jnp.where(jnp.isfinite(left), left, jnp.inf)
-    return *at, lead, left, h_aa, h_aa * h_bb - h_ab * h_ab, w[0], w[1], p[0]
+        first, mixed, second = entry(pa, turn_a), entry(pa, turn_b), entry(pb, turn_b)
+        left = jnp.where(jnp.isfinite(left), left, jnp.inf)
+        return step, (lead, left, first, first * second - mixed * mixed, w[0], w[1])
+
+    def go(_: int, state: tuple[Seen, Seen, Seen]) -> tuple[Seen, Seen, Seen]:
+        at, step, _ = state
+        at = tuple(x + d for x, d in zip(at, step, strict=True))
+        return at, *look(at)
+
+    nothing = jnp.zeros_like(phi)
+    state = ((s1, theta1, s2, theta2), (nothing,) * 4, (nothing,) * 6)
+    at, _, found = jax.lax.fori_loop(0, STEPS + 1, go, state)
+    return *at, *found
 
 
 refine = Batched(_refine, parameters=3)

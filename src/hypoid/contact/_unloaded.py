@@ -286,7 +286,7 @@ def _refined(
         np.asarray(horner(chart.s, u, v)),
         np.asarray(horner(chart.theta, u, v)),
     )
-    s1, theta1, s2, theta2, lead, left, first, determinant, z2, rho2, _ = out
+    s1, theta1, s2, theta2, lead, left, first, determinant, z2, rho2 = out
     extreme = (determinant > 0.0) & (first < 0.0)
     return ContactPoints(s1, theta1, s2, theta2, lead, left, determinant, extreme, z2, rho2)
 

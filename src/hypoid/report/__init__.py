@@ -1,0 +1,23 @@
+"""The report of a pair: one self-contained HTML file. A leaf: it shows, and computes nothing.
+
+Names that need NumPy, matplotlib or JAX are loaded when first asked for.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from ._progress import Progress as Progress
+from ._progress import terminal_progress as terminal_progress
+
+if TYPE_CHECKING:
+    from ._report import ReportSummary as ReportSummary
+    from ._report import report_html as report_html
+    from ._report import write_report as write_report
+
+_LAZY = ("ReportSummary", "report_html", "write_report")
+
+
+def __getattr__(name: str) -> Any:
+    if name in _LAZY:
+        return getattr(import_module("._report", __name__), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
