@@ -13,8 +13,8 @@ CAP = 500
 QUICK = {
     "import hypoid": "import hypoid",
     "import hypoid.blank": "import hypoid.blank",
-    "hypoid blank": "from hypoid.cli import main; main(['blank', sys.argv[1], '--json'])",
-    "hypoid examples": "from hypoid.cli import main; main(['examples'])",
+    "hypoid blank": "from hypoid.cli import main; assert main(['blank', sys.argv[1]]) == 0",
+    "hypoid examples": "from hypoid.cli import main; assert main(['examples']) == 0",
 }
 
 

@@ -16,9 +16,11 @@ if TYPE_CHECKING:
 
 __all__ = ["read", "__version__"]
 
+__version__: str  # asked for rarely, so looked up late
+
 
 def read(path: str | Path) -> GearPair:
-    """The gear pair that a design file describes; a `DesignError` lists all that is wrong with it."""
+    """The gear pair of a design file; a `DesignError` lists all that is wrong with the file."""
     from .design import build
     from .io import read_spec
 

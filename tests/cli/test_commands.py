@@ -40,7 +40,12 @@ def test_blank_has_the_names_that_scripts_rely_on(hypoid: Any) -> None:
     assert pair["mean_normal_module_mm"] == pytest.approx(2.716, abs=5e-4)
     assert pair["limit_pressure_angle_deg"] == pytest.approx(-0.649, abs=5e-4)
     assert {"shaft_angle_deg", "offset_mm"} <= pair.keys()
-    assert (pinion["teeth"], pinion["hand"], wheel["teeth"], wheel["hand"]) == (6, "left", 73, "right")
+    assert (pinion["teeth"], pinion["hand"], wheel["teeth"], wheel["hand"]) == (
+        6,
+        "left",
+        73,
+        "right",
+    )
     named = (
         "pitch_angle_deg mean_spiral_angle_deg mean_pitch_diameter_mm outer_pitch_diameter_mm "
         "mean_cone_distance_mm outer_cone_distance_mm face_width_mm "
@@ -76,7 +81,7 @@ def test_bad_file_is_status_2_with_problems_as_json(
     ("old", "new", "path"),
     [
         ('cutter_radius = "100 mm"', 'cutter_radius = "5 mm"', "cutting.cutter_radius"),
-        ('offset = "55 mm"', 'offset = "129 mm"', "pair.offset"),
+        ('offset = "55 mm"', 'offset = "129 mm"', "pinion.mean_spiral_angle"),
     ],
 )
 def test_geometry_that_cannot_be_is_bad_input(
@@ -146,7 +151,13 @@ def test_interrupt_is_status_130(hypoid: Any, monkeypatch: pytest.MonkeyPatch) -
 
 def test_reader_that_stops_early_is_no_error() -> None:
     process = subprocess.Popen(
-        [sys.executable, "-c", "from hypoid.cli import main; raise SystemExit(main())", "blank", EXAMPLE],
+        [
+            sys.executable,
+            "-c",
+            "from hypoid.cli import main; raise SystemExit(main())",
+            "blank",
+            EXAMPLE,
+        ],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
     )

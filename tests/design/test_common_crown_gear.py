@@ -61,7 +61,13 @@ CASES: dict[str, dict[str, Any]] = {
     "Table 1": {},
     "right-hand pinion": {"pinion_hand": "right"},
     "70 deg": {"shaft_angle": radians(70.0), "offset": 30.0, "pinion_teeth": 12},
-    "110 deg": {"shaft_angle": radians(110.0), "offset": 30.0, "pinion_teeth": 12},
+    "110 deg": {
+        "shaft_angle": radians(110.0),
+        "offset": 30.0,
+        "pinion_teeth": 20,
+        "wheel_teeth": 45,
+        "pinion_spiral_angle": radians(45.0),
+    },
 }
 
 

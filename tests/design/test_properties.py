@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from math import degrees, pi, radians
-from typing import Any
-
+from math import degrees, radians
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
@@ -55,18 +53,13 @@ def build_or_pass(spec: ExactFaceHobbedSpec) -> GearPair:
         raise
 
 
-def at_pitch_point(pair: GearPair, name: str) -> Any:
-    member = getattr(pair, name)
-    return member, member.blank.mean_cone_distance
-
-
-@settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=8, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
 @given(designs())
 def test_both_members_are_cut_at_the_pitch_point(spec: ExactFaceHobbedSpec) -> None:
     pair = build_or_pass(spec)
-    for name in ("pinion", "wheel"):
-        member, distance = at_pitch_point(pair, name)
-        (z,), (rho,) = (np.atleast_1d(v) for v in member.concave.cone.axial_radial(distance, 0.0))
+    for member in (pair.pinion, pair.wheel):
+        distance = member.blank.mean_cone_distance
+        z, rho = (float(v) for v in member.concave.cone.axial_radial(distance, 0.0))
         assert rho == pytest.approx(member.blank.mean_pitch_diameter / 2.0, rel=1e-12)
         for flank in (member.concave, member.convex):
             points = flank.at_cone(distance, 0.0)
@@ -75,13 +68,12 @@ def test_both_members_are_cut_at_the_pitch_point(spec: ExactFaceHobbedSpec) -> N
         assert concave.position[0] == pytest.approx([rho, 0.0, z], abs=1e-8)
 
 
-@settings(max_examples=25, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=25, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
 @given(designs())
 def test_pressure_and_spiral_angles_at_the_pitch_point(spec: ExactFaceHobbedSpec) -> None:
     """20 deg in the normal section and the blank's spiral angle: the slope angle's sign is right."""
     pair = build_or_pass(spec)
-    for name in ("pinion", "wheel"):
-        member, _ = at_pitch_point(pair, name)
+    for member in (pair.pinion, pair.wheel):
         delta = member.blank.pitch_angle
         up = np.array([np.cos(delta), 0.0, -np.sin(delta)])  # out of the pitch cone at P
         along = np.array([np.sin(delta), 0.0, np.cos(delta)])
@@ -90,9 +82,5 @@ def test_pressure_and_spiral_angles_at_the_pitch_point(spec: ExactFaceHobbedSpec
         line = np.cross(normal[0], up)
         spiral = np.arccos(abs(line @ along) / np.linalg.norm(line))
         assert spiral == pytest.approx(member.blank.mean_spiral_angle, abs=1e-9)
-        hand = np.sign((line @ along) * line[1])  # of the tooth line: left leans to -y or +y
-        assert hand == (-1.0 if member.blank.hand == "left" else 1.0) * HAND
-        assert member.blank.mean_spiral_angle < pi / 2
-
-
-HAND = 1.0
+        leans = np.sign((line @ along) * line[1])  # from apex to heel, to -y on a left-hand member
+        assert leans == (-1.0 if member.blank.hand == "left" else 1.0)

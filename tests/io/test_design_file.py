@@ -42,7 +42,11 @@ def test_example_is_table_1_of_the_2022_paper() -> None:
     assert spec.cutter_radius == 100.0
     assert spec.shaft_angle == pytest.approx(radians(90))
     assert spec.pinion_spiral_angle == pytest.approx(radians(65))
-    assert (spec.mean_addendum_factor, spec.depth_factor, spec.clearance_factor) == (0.5, 1.75, 0.125)
+    assert (spec.mean_addendum_factor, spec.depth_factor, spec.clearance_factor) == (
+        0.5,
+        1.75,
+        0.125,
+    )
     assert spec.marking_thickness == 0.0065
     assert spec.tip_relief is None
     assert spec.assumed == ()
@@ -53,7 +57,10 @@ def test_relief_example_tells_apart_what_it_assumes() -> None:
     assert spec.tip_relief is not None
     assert (spec.tip_relief.coefficient, spec.tip_relief.height) == (0.004, 1.5)
     assert (spec.tip_relief.measured_from, spec.tip_relief.flanks) == ("tip", "both")
-    assert [a.value for a in spec.assumed] == ["cutting.tip_relief.from", "cutting.tip_relief.flanks"]
+    assert [a.value for a in spec.assumed] == [
+        "cutting.tip_relief.from",
+        "cutting.tip_relief.flanks",
+    ]
 
 
 def test_defaults_are_told_as_assumptions() -> None:
@@ -184,7 +191,9 @@ def test_toml_faults_come_with_line_and_column(tmp_path: Path) -> None:
         parse_spec("a = 1\nb = ?\n")
 
 
-@pytest.mark.parametrize(("name", "given_text"), [("", "a folder"), ("no.toml", "no file"), ("\0", "cannot")])
+@pytest.mark.parametrize(
+    ("name", "given_text"), [("", "a folder"), ("no.toml", "no file"), ("\0", "cannot")]
+)
 def test_path_that_is_no_file(tmp_path: Path, name: str, given_text: str) -> None:
     with pytest.raises(DesignError, match=given_text):
         read_spec(f"{tmp_path}/{name}")

@@ -1,3 +1,3 @@
-"""The commands. Nothing that computes lives here, and nothing heavy is imported before it is used."""
+"""The commands. Nothing that computes lives here; what is heavy is imported when it is used."""
 
 from ._main import main as main

@@ -52,13 +52,17 @@ def write_table(
     from rich.console import Console
     from rich.table import Table
 
-    table = Table(title=title, title_justify="left", box=SIMPLE_HEAD, pad_edge=False, show_header=any(columns))
+    table = Table(title=title, title_justify="left", box=SIMPLE_HEAD, pad_edge=False)
+    table.show_header = any(columns)
     table.add_column("", no_wrap=True)
     for column in columns:
         table.add_column(column.replace(" ", "\n"), justify="right", no_wrap=True)
     for name, values in rows:
         table.add_row(name, *(f"{v:.6g}" if isinstance(v, float) else str(v) for v in values))
-    Console(file=sys.stdout, highlight=False, soft_wrap=True).print(table)
+    console = Console(file=sys.stdout, highlight=False, soft_wrap=True)
+    with console.capture() as text:  # printed by us: rich has its own way with a broken pipe
+        console.print(table)
+    print(text.get(), end="")
 
 
 def write_members(title: str, results: Mapping[str, Mapping[str, Any]]) -> None:
@@ -69,7 +73,9 @@ def write_members(title: str, results: Mapping[str, Mapping[str, Any]]) -> None:
 
 
 def _cell(value: Any) -> float | int | str:
-    return ", ".join(f"{x:g}" for x in value) or "none" if isinstance(value, list | tuple) else value
+    if isinstance(value, list | tuple):
+        return ", ".join(f"{x:g}" for x in value) or "none"
+    return value
 
 
 def _plain(value: Any) -> Any:

@@ -6,14 +6,44 @@ outline need no case of their own, since a point off the mate does not count.
 
 from __future__ import annotations
 
+import jax
+import jax.numpy as jnp
 import numpy as np
 
-from ..geometry import on_unit
+from ..geometry import Batch, Scalar, on_unit
 from ._field import AngleField, FlankNodes, lead_on_flank
 from ._mounting import Mounting
 
-LEVELS, SHRINK, POINTS = 6, 4.0, 9
+LEVELS, SHRINK, POINTS = 6, 0.25, 9
 PADDING = 64  # positions are padded to a multiple of it, so that few shapes are compiled
+
+Place = tuple[Batch, Batch, Batch]  # x, y of the chart and the lead there
+
+
+@jax.jit
+def _zoom(
+    mount: Mounting,
+    pinion: AngleField,
+    wheel: AngleField,
+    phi: Batch,
+    start: Place,
+    window: tuple[Scalar, Scalar],
+) -> Batch:
+    spread = jnp.linspace(-1.0, 1.0, POINTS)
+    dx, dy = (window[k] * g.ravel() for k, g in enumerate(jnp.meshgrid(spread, spread)))
+
+    def level(k: int, place: Place) -> Place:
+        x, y, value = place
+        scale = SHRINK**k
+        u = jnp.clip(x[:, None] + scale * dx, -1.0, 1.0)
+        v = jnp.clip(y[:, None] + scale * dy, -1.0, 1.0)
+        found = lead_on_flank(mount, pinion, wheel, phi[:, None], u, v)
+        best = found.argmax(axis=1)[:, None]
+        u, v, found = (jnp.take_along_axis(a, best, axis=1)[:, 0] for a in (u, v, found))
+        better = found > value
+        return jnp.where(better, u, x), jnp.where(better, v, y), jnp.where(better, found, value)
+
+    return jax.lax.fori_loop(0, LEVELS, level, start)[2]
 
 
 def zoom(
@@ -31,21 +61,8 @@ def zoom(
         return top
     columns, rows = len(nodes.distance), len(nodes.share)
     size = -(-count // PADDING) * PADDING
-    angle = np.resize(phi, size)
-    node, value = np.resize(best, size), np.resize(top, size)
+    angle, node, value = (np.resize(a, size) for a in (phi, best, top))
     x = on_unit(nodes.distance[0], nodes.distance[-1], nodes.distance[node % columns])
     y = 2.0 * nodes.share[node // columns] - 1.0
-    wide, high = 2.0 / (columns - 1), 2.0 / (rows - 1)
-    spread = np.linspace(-1.0, 1.0, POINTS)
-    dx, dy = (g.ravel() for g in np.meshgrid(spread, spread))
-    each = np.arange(size)
-    for _ in range(LEVELS):
-        u = np.clip(x[:, None] + wide * dx, -1.0, 1.0)
-        v = np.clip(y[:, None] + high * dy, -1.0, 1.0)
-        found = np.asarray(lead_on_flank(mount, pinion, wheel, angle[:, None], u, v))
-        k = found.argmax(axis=1)
-        better = found[each, k] > value
-        value = np.where(better, found[each, k], value)
-        x, y = np.where(better, u[each, k], x), np.where(better, v[each, k], y)
-        wide, high = wide / SHRINK, high / SHRINK
-    return value[:count]
+    window = (2.0 / (columns - 1), 2.0 / (rows - 1))
+    return np.asarray(_zoom(mount, pinion, wheel, angle, (x, y, value), window))[:count]

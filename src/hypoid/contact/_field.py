@@ -119,7 +119,6 @@ def lead_grid(mount: Mounting, wheel: AngleField, phi: Batch, point: Vector) -> 
 lead_each = jax.jit(lead)  # one pinion angle a point
 
 
-@jax.jit
 def lead_on_flank(
     mount: Mounting, pinion: AngleField, wheel: AngleField, phi: Batch, x: Batch, y: Batch
 ) -> Batch:

@@ -11,13 +11,14 @@ So one compiled function serves every edge. Pieces run from the blade's tip to i
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 
-from ..geometry import Batch, Scalar, Vector
+from ..geometry import Batch, Scalar, Vector, once
 
 
 @jax.tree_util.register_dataclass
@@ -49,21 +50,28 @@ class EdgePiece:
         )
 
 
+# sin(x)/x and (1 - cos(x))/x**2 as powers of x**2, highest first: to 1e-16 for |x| up to pi.
+_ORDERS = range(13, -1, -1)
+_SINE = tuple((-1) ** k / math.factorial(2 * k + 1) for k in _ORDERS)
+_VERSINE = tuple((-1) ** k / math.factorial(2 * k + 2) for k in _ORDERS)
+
+
+def _sine_and_versine(square: Batch) -> tuple[Batch, Batch]:
+    """sin(x)/x and (1 - cos(x))/x**2 from x**2: smooth through zero, so a line is an arc, too."""
+    sine, versine = _SINE[0] + 0.0 * square, _VERSINE[0] + 0.0 * square
+    for a, b in zip(_SINE[1:], _VERSINE[1:], strict=True):
+        sine, versine = sine * square + a, versine * square + b
+    return sine, versine
+
+
 def edge_point(piece: EdgePiece, s: Batch) -> tuple[Vector, Vector]:
     """Point (mm) and derivative by s of an edge piece, in the cutter frame."""
-    k = piece.curvature
-    turn = k * s
-    small = jnp.abs(turn) < 1e-3
-    safe = jnp.where(small, 1.0, turn)
-    square = turn * turn
-    beyond = jnp.maximum(s - piece.relief_from, 0.0)
-    sine, cosine = jnp.sin(safe), jnp.cos(safe)
-    # Taylor series keep line and arc in one formula; the next terms are below 1e-16.
-    along = s * jnp.where(small, 1.0 - square / 6.0 * (1.0 - square / 20.0), sine / safe)
-    bend = jnp.where(small, turn * (0.5 - square / 24.0), (1.0 - cosine) / safe)
-    rise = s * bend + piece.relief * beyond**2
-    along_s = jnp.where(small, 1.0 - square * (0.5 - square / 24.0), cosine)
-    rise_s = jnp.where(small, turn * (1.0 - square / 6.0), sine) + 2.0 * piece.relief * beyond
+    turn = piece.curvature * s
+    straight, bent = _sine_and_versine(turn * turn)
+    beyond = piece.relief * jnp.maximum(s - piece.relief_from, 0.0)
+    along, rise = s * straight, s * turn * bent + beyond * (s - piece.relief_from)
+    along_s, rise_s = 1.0 - turn * turn * bent, turn * straight + 2.0 * beyond
+    along, rise, along_s, rise_s = once((along, rise, along_s, rise_s))
     point = tuple(
         p + along * t + rise * m
         for p, t, m in zip(piece.start, piece.tangent, piece.metal, strict=True)

@@ -9,7 +9,7 @@ import jax
 import jax.numpy as jnp
 
 from ..cutter import EdgePiece
-from ..geometry import Batch, Scalar, Vector, scale, turn_z, unit
+from ..geometry import Batch, Scalar, Vector, once, scale, turn_z, unit
 from ..machine import Generator, Placed, place, solve_meshing, sweep
 
 
@@ -37,8 +37,8 @@ def position_and_normal(
 ) -> tuple[Vector, Vector]:
     """Points (mm) and unit normals out of the tooth, left-hand member's frame."""
     at, _ = placed(surface, piece, s, theta)
-    cosine, sine = jnp.cos(at.turn), -jnp.sin(at.turn)
-    normal = scale(surface.outward, unit(at.normal))
+    cosine, sine = once((jnp.cos(at.turn), -jnp.sin(at.turn)))
+    normal = once(scale(surface.outward, unit(at.normal)))
     return turn_z(cosine, sine, at.point), turn_z(cosine, sine, normal)
 
 

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from ._jax import Scalar as Scalar
     from ._jax import Vector as Vector
     from ._jax import compiled as compiled
+    from ._jax import once as once
     from ._namespace import namespace as namespace
     from ._vector import add as add
     from ._vector import cross as cross
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "_chebyshev": ("fit", "fit_line", "horner", "horner_line", "nodes", "on_unit"),
-    "_jax": ("Batch", "Batched", "Scalar", "Vector", "compiled"),
+    "_jax": ("Batch", "Batched", "Scalar", "Vector", "compiled", "once"),
     "_namespace": ("namespace",),
     "_vector": ("add", "cross", "dot", "scale", "turn_z", "unit"),
 }

@@ -1,9 +1,9 @@
 """JAX as the package uses it: float64, a persistent compilation cache, and compiled batches.
 
-Two facts of XLA on the CPU decide how batches run here (measured, see docs/architecture.md):
-its fusion recomputes shared subexpressions once for every output, so these functions are compiled
-without it; and without fusion every operation passes over memory, so batches go through in pieces
-that stay in the cache, one thread a core.
+XLA on the CPU fuses what feeds one output into one kernel, and computes whatever several outputs
+share once for each of them. So the formulas mark what is worth computing once (``once``), kernels
+end there, and batches go through in blocks that stay in the cache, one thread a core (measured,
+see docs/architecture.md).
 """
 
 from __future__ import annotations
@@ -11,10 +11,11 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from functools import partial
+from functools import cache, partial
 from typing import Any, ParamSpec, TypeAlias, TypeVar
 
 import jax
+import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float
 from platformdirs import user_cache_dir
@@ -30,67 +31,112 @@ if jax.config.jax_compilation_cache_dir is None:
 Scalar: TypeAlias = Float[jax.Array, ""] | float
 Batch: TypeAlias = Float[jax.Array, "*n"]
 Vector: TypeAlias = tuple[Batch, Batch, Batch]  # a batch of vectors, component by component
+Rows: TypeAlias = Float[np.ndarray[Any, Any], "m n"]  # an answer: one row a component
 
-# The batch sizes that are ever compiled: a batch is padded to the next, or cut into the last.
-SIZES = (64, 2048, 32768)
+POINTS = 32768  # points that one compiled call takes at most
 WORKERS = os.cpu_count() or 1
 
+# Without these XLA drops the marks of ``once`` before it fuses; the older emitters compile kernels
+# in half the time and run them as fast. A jaxlib that knows no such option gets none.
+KEEP_MARKS: dict[str, Any] = {"xla_disable_hlo_passes": "cse_barrier_expander"}
+QUICK_TO_COMPILE: dict[str, Any] = {**KEEP_MARKS, "xla_cpu_use_fusion_emitters": False}
 
 P = ParamSpec("P")
 R = TypeVar("R")
+Tree = TypeVar("Tree")
+
+
+def once(values: Tree) -> Tree:
+    """The same values, kept in memory: whatever uses them reads them, nothing computes them again."""
+    return jax.lax.optimization_barrier(values)
+
+
+@cache
+def _options() -> dict[str, Any] | None:
+    if jax.default_backend() != "cpu":
+        return None
+    for options in (QUICK_TO_COMPILE, KEEP_MARKS):
+        try:
+            jax.jit(lambda x: x, compiler_options=options).lower(0.0).compile()
+        except jax.errors.JaxRuntimeError:
+            continue
+        return options
+    return None
 
 
 def compiled(function: Callable[P, R]) -> Callable[P, R]:
-    """Compile for the top level, without fusion on the CPU (see the module's first lines)."""
-    if jax.default_backend() != "cpu":
-        return jax.jit(function)
-    return jax.jit(function, compiler_options={"xla_disable_hlo_passes": "fusion,cpu-fusion"})
+    """Compile for the top level, with the marks of ``once`` kept on the CPU."""
+    return jax.jit(function, compiler_options=_options())
 
 
 class Batched:
     """A compiled function of (parameters, arrays) that takes arrays of any one length.
 
-    Compiled on first use, so that importing a module compiles nothing. The function gets
-    ``(*parameters, *arrays)`` and returns a tuple of arrays of the same length; the answer is one
-    NumPy array a component.
+    The function gets ``(*parameters, *arrays)`` and returns a tuple of arrays of that length; the
+    answer has one row a component. It is compiled once, on first use, for blocks of ``block``
+    points and as many of them as a call has: importing a module compiles nothing, and neither does
+    another length. Small blocks suit short batches, since one block is the least that is computed.
     """
 
-    def __init__(self, function: Callable[..., tuple[Batch, ...]], parameters: int) -> None:
+    def __init__(
+        self, function: Callable[..., tuple[Batch, ...]], parameters: int, block: int = 2048
+    ) -> None:
         self._function = function
         self._parameters = parameters
+        self._shape = (POINTS // block, block)
         self._compiled: Callable[..., tuple[Batch, ...]] | None = None
 
-    def __call__(self, *arguments: Any) -> tuple[np.ndarray[Any, Any], ...]:
+    def __call__(self, *arguments: Any) -> Rows:
         if self._compiled is None:
-            self._compiled = compiled(self._function)
-        parameters = arguments[: self._parameters]
-        arrays = [np.asarray(a).ravel() for a in arguments[self._parameters :]]
+            self._compiled = compiled(self._blocks)
+        # Numbers of one type, whatever the caller holds: nothing compiles twice.
+        parameters = jax.tree.map(_as_float64, arguments[: self._parameters])
+        arrays = [np.asarray(a, float).ravel() for a in arguments[self._parameters :]]
         length = len(arrays[0])
-        size = next((s for s in SIZES if s >= length), SIZES[-1])
-        if length <= size:
-            padded = [np.resize(a, size) if length else np.zeros(size) for a in arrays]
-            return tuple(
-                np.asarray(component)[:length] for component in self._compiled(*parameters, *padded)
-            )
-        return self._in_pieces(partial(self._compiled, *parameters), arrays, length, size)
-
-    @staticmethod
-    def _in_pieces(
-        call: Callable[..., tuple[Batch, ...]],
-        arrays: list[np.ndarray[Any, Any]],
-        length: int,
-        size: int,
-    ) -> tuple[np.ndarray[Any, Any], ...]:
-        first = call(*(a[:size] for a in arrays))
-        out = tuple(np.zeros(length, dtype=component.dtype) for component in first)
+        call = partial(self._compiled, parameters)
+        first = self._piece(call, arrays, 0)
+        answer = np.zeros((len(first), length))
+        answer[:, :POINTS] = [row[:length] for row in first]
 
         def piece(start: int) -> None:
-            start = min(start, length - size)  # the last piece overlaps its neighbour
-            part = slice(start, start + size)
-            answer = call(*(a[part] for a in arrays)) if start else first
-            for target, component in zip(out, answer, strict=True):
-                target[part] = component
+            part = slice(start, start + POINTS)
+            for target, row in zip(
+                answer[:, part], self._piece(call, arrays, start), strict=True
+            ):
+                target[:] = row[: len(target)]
 
         with ThreadPoolExecutor(WORKERS) as pool:
-            list(pool.map(piece, range(0, length, size)))
-        return out
+            list(pool.map(piece, range(POINTS, length, POINTS)))
+        return answer
+
+    def _piece(
+        self, call: Callable[..., tuple[Batch, ...]], arrays: list[np.ndarray[Any, Any]], start: int
+    ) -> list[np.ndarray[Any, Any]]:
+        """One call's worth of points from ``start`` on; only what is asked for means anything."""
+        parts = [a[start : start + POINTS] for a in arrays]
+        length = len(parts[0])
+        if length < POINTS:
+            parts = [_padded(a) for a in parts]
+        blocks = -(-length // self._shape[1])
+        return [np.asarray(c).ravel() for c in call(blocks, *(a.reshape(self._shape) for a in parts))]
+
+    def _blocks(self, parameters: tuple[Any, ...], count: int, *arrays: Batch) -> tuple[Batch, ...]:
+        def answer(index: Any) -> tuple[Batch, ...]:
+            return once(self._function(*parameters, *(a[index] for a in arrays)))
+
+        def step(index: Any, total: tuple[Batch, ...]) -> tuple[Batch, ...]:
+            return tuple(t.at[index].set(a) for t, a in zip(total, answer(index), strict=True))
+
+        rows = len(jax.eval_shape(answer, 0))
+        return jax.lax.fori_loop(0, count, step, (jnp.zeros(self._shape),) * rows)
+
+
+def _as_float64(leaf: Any) -> np.ndarray[Any, Any]:
+    return np.asarray(leaf, dtype=np.float64)
+
+
+def _padded(part: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    """Filled up to a whole call with copies of its last point, which is as harmless as the rest."""
+    filled = np.full(POINTS, part[-1] if len(part) else 0.0)
+    filled[: len(part)] = part
+    return filled

@@ -63,7 +63,10 @@ class Settings(Table):
     ratio_of_roll: float | None = _key("a plain number above 0", 12.431511, default=None, gt=0)
     helical_motion: LengthPerAngle | None = _key("length per angle", "0.1 mm/rad", default=None)
     modified_roll: list[float] | None = _key(
-        "a list of up to 5 plain numbers, of orders 2 to 6", [0.0, 0.001], default=None, max_length=5
+        "up to 5 plain numbers, of orders 2 to 6",
+        [0.0, 0.001],
+        default=None,
+        max_length=5,
     )
 
 
@@ -120,17 +123,13 @@ class Blank(Table):
 
     mean_addendum_factor: float = _key("a plain number from 0 to 1", 0.5, default=0.5, ge=0, le=1)
     depth_factor: float = _key("a plain number above 0, up to 4", 1.75, default=1.75, gt=0, le=4)
-    clearance_factor: float = _key(
-        "a plain number from 0 to 1", 0.125, default=0.125, ge=0, le=1
-    )
+    clearance_factor: float = _key("a plain number from 0 to 1", 0.125, default=0.125, ge=0, le=1)
 
 
 class Relief(Table):
     """tip_relief of the cutting edges."""
 
-    coefficient: PerLength = _key(
-        "a number per length, 0 or more", "0.004 /mm", ge=0, le=_LARGEST
-    )
+    coefficient: PerLength = _key("a number per length, 0 or more", "0.004 /mm", ge=0, le=_LARGEST)
     height: Length = _key("a length above 0", "1.5 mm", gt=0, le=_LARGEST)
     measured_from: Literal["tip", "pitch"] = _key(
         '"tip" or "pitch", where the height starts', "tip", default="tip", alias="from"

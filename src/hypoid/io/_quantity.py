@@ -13,8 +13,10 @@ Kind = Literal["length", "angle", "per_length", "length_per_angle", "force", "to
 
 _MM = {"mm": 1.0, "um": 1e-3, "m": 1e3, "cm": 10.0, "in": 25.4, "ft": 304.8}
 _DEG = pi / 180
-_RAD = {"deg": _DEG, "rad": 1.0, "min": _DEG / 60, "sec": _DEG / 3600}
-_RAD |= {"mrad": 1e-3, "urad": 1e-6, "arcmin": _DEG / 60, "arcsec": _DEG / 3600}
+_RAD = {
+    "deg": _DEG, "rad": 1.0, "min": _DEG / 60, "sec": _DEG / 3600,
+    "arcmin": _DEG / 60, "arcsec": _DEG / 3600, "mrad": 1e-3, "urad": 1e-6,
+}  # fmt: skip
 _INCH_POUND = 112.98482902761668  # N mm
 
 # Unit -> its size in the program's own unit. A space may be left out, or written as * or a dot.

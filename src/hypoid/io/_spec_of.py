@@ -13,7 +13,8 @@ from ._design_file import DesignFile, Relief, Settings
 
 def spec_of(file: DesignFile) -> ExactFaceHobbedSpec:
     """The numbers of a design file, with all that the file or the program assumed."""
-    pair, pinion, wheel, blank, cutting = file.pair, file.pinion, file.wheel, file.blank, file.cutting
+    pair, pinion, wheel = file.pair, file.pinion, file.wheel
+    blank, cutting = file.blank, file.cutting
     radius = wheel.mean_pitch_radius or (wheel.mean_pitch_diameter or 0.0) / 2
     return ExactFaceHobbedSpec(
         title=file.title,
@@ -73,8 +74,10 @@ def _defaults_used(file: DesignFile) -> Iterator[Assumption]:
     }
     for path, table in tables.items():
         for name, field in type(table).model_fields.items() if table else ():
-            if field.default is not None and not field.is_required() and name not in (
-                table.model_fields_set if table else ()
+            if (
+                field.default is not None
+                and not field.is_required()
+                and name not in (table.model_fields_set if table else ())
             ):
                 reason = f"not given; the program's default is {field.default}"
                 yield Assumption(f"{path}.{field.alias or name}", reason)

@@ -15,7 +15,7 @@ import jax
 import jax.numpy as jnp
 
 from ..cutter import EdgePiece, edge_point
-from ..geometry import Batch, Vector, add, cross, dot, scale, turn_z
+from ..geometry import Batch, Vector, add, cross, dot, once, scale, turn_z
 from ._settings import Generator
 
 
@@ -43,15 +43,15 @@ class Meshing:
 def sweep(gen: Generator, piece: EdgePiece, s: Batch, theta: Batch) -> SweptEdge:
     """Turn edge points with the cutter by -theta and carry them into the cradle frame."""
     point, tangent = edge_point(piece, s)
-    cosine, sine = jnp.cos(theta), jnp.sin(theta)
+    cosine, sine = once((jnp.cos(theta), jnp.sin(theta)))
 
     def to_cradle(v: Vector) -> Vector:
         x, y, z = turn_z(cosine, -sine, v)
         return tuple(row[0] * x + row[1] * y + row[2] * z for row in gen.head)  # type: ignore[return-value]
 
-    arm = to_cradle(point)
+    arm, along = once((to_cradle(point), to_cradle(tangent)))
     axis: Vector = (gen.head[0][2], gen.head[1][2], gen.head[2][2])
-    return SweptEdge(add(gen.centre, arm), to_cradle(tangent), cross(arm, axis))
+    return SweptEdge(add(gen.centre, arm), along, cross(arm, axis))
 
 
 def _crown_normal(gen: Generator, edge: SweptEdge) -> Vector:
@@ -67,22 +67,20 @@ def _crown_normal(gen: Generator, edge: SweptEdge) -> Vector:
 
 def mesh_closed(gen: Generator, edge: SweptEdge, branch: Batch | float) -> Meshing:
     """Cradle angle where an edge point meshes, closed in phi (plain roll) [notes of 2022]."""
-    n = _crown_normal(gen, edge)
+    n = once(_crown_normal(gen, edge))
     m = cross(edge.point, n)
     ratio, c, s = gen.roll[0], gen.root_cosine, gen.root_sine
     offset, base = gen.blank_offset, gen.sliding_base
     a = -ratio * (c * (m[0] + base * n[1]) - s * offset * n[0])
     b = -ratio * (c * (base * n[0] - m[1]) + s * offset * n[1])
     const = m[2] - ratio * (s * m[2] + c * offset * n[2])
+    a, b, const = once((a, b, const))
     square = a * a + b * b
     discriminant = square - const * const
     slope = branch * jnp.sqrt(jnp.maximum(discriminant, 1e-30 * square))
-    return Meshing(
-        cosine=(b * slope - a * const) / square,
-        sine=-(a * slope + b * const) / square,
-        slope=slope,
-        discriminant=discriminant,
-    )
+    slope, share = once((slope, 1.0 / square))
+    cosine, sine = once(((b * slope - a * const) * share, -(a * slope + b * const) * share))
+    return Meshing(cosine, sine, slope, discriminant)
 
 
 def _roll(gen: Generator, phi: Batch) -> tuple[Batch, Batch]:
@@ -167,7 +165,8 @@ def place(gen: Generator, edge: SweptEdge, theta: Batch, mesh: Meshing, plain: b
 
     x, y, z = to_work((r[0], r[1] + gen.blank_offset, r[2] - base))
     point = (x, y, z - gen.machine_center_to_back)
-    return Placed(point, to_work(normal), gen.blade_ratio * theta + roll, phi)
+    point, normal, turn = once((point, to_work(normal), gen.blade_ratio * theta + roll))
+    return Placed(point, normal, turn, phi)
 
 
 def solve_meshing(gen: Generator, edge: SweptEdge, branch: Any, plain: bool) -> Meshing:
