@@ -42,7 +42,7 @@ TABLE_1 = ExactFaceHobbedSpec(
     marking_thickness=0.0065,
 )
 RELIEF = TipRelief(coefficient=0.004, height=1.5, measured_from="tip", flanks="both")
-TILTED = {"tilt_angle": radians(2.0), "swivel_angle": radians(-35.0)}
+TILTED = {"tilt_angle": radians(0.3), "swivel_angle": radians(-35.0)}
 MOVING = {"helical_motion": 0.3, "modified_roll": (0.01, -0.02, 0.03)}
 SIDES = ("pinion.concave", "pinion.convex", "wheel.concave", "wheel.convex")
 VARIANTS: dict[str, dict[str, Any]] = {

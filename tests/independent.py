@@ -157,6 +157,14 @@ class Sweep:
     def theta_start(self) -> float:
         return 0.0 if self.blade.name == "outer" else -math.pi / self.blade_groups
 
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Outline lengths at the inner end of the land and at the shank, mm."""
+        straight = self.blade.arc_height / math.cos(self.blade.pressure_angle)
+        arc = self.blade.edge_radius * (math.pi / 2 - self.blade.pressure_angle)
+        shank = self.blade.shank_height / math.cos(self.blade.pressure_angle)
+        return -straight - arc - self.blade.land, shank
+
     def place(self, lengths: Array, theta: Array, phi: Array) -> tuple[Array, Array, Array]:
         """Cone distance, height above the pitch cone (mm) and angle (rad) of swept points."""
         x, z = blade_outline(self.blade, lengths)
@@ -189,16 +197,14 @@ class Sweep:
         height = np.where(passing, height, np.nan)
         return theta, height, angle
 
-    def boundary(self, distance: float, heights: Array, sign: float) -> Array:
-        """Extreme angle (greatest for sign > 0) of all that is swept at each height, rad.
+    def boundary(self, distance: float, heights: Array, side: str) -> Array:
+        """Extreme angle (greatest on concave flanks) of all that is swept at each height, rad.
 
         The outline is a polyline in the section S = distance for each of many cradle angles; the
         extreme over the cradle is searched on a grid, then on finer ones around the best.
         """
-        straight = self.blade.arc_height / math.cos(self.blade.pressure_angle)
-        arc = self.blade.edge_radius * (math.pi / 2 - self.blade.pressure_angle)
-        shank = self.blade.shank_height / math.cos(self.blade.pressure_angle)
-        low = -straight - arc - self.blade.land
+        sign = 1.0 if side == "concave" else -1.0
+        low, shank = self.ends
         out = np.full(len(heights), np.nan)
         lengths, phi = np.linspace(low, shank, 161), np.linspace(-0.36, 0.36, 241)
         grid = np.meshgrid(lengths, phi, indexing="ij")

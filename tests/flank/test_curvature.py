@@ -70,10 +70,11 @@ def test_euler_in_any_direction(flank_of: Callable[[str, str], Flank], name: str
     assert measured == pytest.approx(k1 * cosine**2 + k2 * (1.0 - cosine**2), abs=2e-6)
 
 
-def test_convex_flanks_bulge_lengthwise_and_concave_ones_do_not(
-    flank_of: Callable[[str, str], Flank],
-) -> None:
-    """Normal curvature along the tooth line: positive on convex flanks, negative on concave ones."""
+def test_sign_lengthwise(flank_of: Callable[[str, str], Flank]) -> None:
+    """Along the tooth line the convex flanks bulge, the wheel's concave one is hollow.
+
+    The pinion's concave flank bulges, too: at 65 deg its tooth winds about the axis as a worm's.
+    """
     for name in NAMES:
         flank = flank_of("plain", name)
         distance = np.linspace(flank.toe + 1, flank.heel - 1, 7)
@@ -84,4 +85,4 @@ def test_convex_flanks_bulge_lengthwise_and_concave_ones_do_not(
         line /= np.linalg.norm(line, axis=1, keepdims=True)
         share = (points.principal_directions * line[:, None, :]).sum(axis=2) ** 2
         lengthwise = (points.principal_curvatures * share).sum(axis=1)
-        assert (np.sign(lengthwise) == (1.0 if flank.side == "convex" else -1.0)).all(), name
+        assert (np.sign(lengthwise) == (-1.0 if name == "wheel concave" else 1.0)).all(), name

@@ -68,9 +68,9 @@ def edge_point(piece: EdgePiece, s: Batch) -> tuple[Vector, Vector]:
     """Point (mm) and derivative by s of an edge piece, in the cutter frame."""
     turn = piece.curvature * s
     straight, bent = _sine_and_versine(turn * turn)
-    beyond = piece.relief * jnp.maximum(s - piece.relief_from, 0.0)
-    along, rise = s * straight, s * turn * bent + beyond * (s - piece.relief_from)
-    along_s, rise_s = 1.0 - turn * turn * bent, turn * straight + 2.0 * beyond
+    beyond = jnp.maximum(s - piece.relief_from, 0.0)
+    along, rise = s * straight, s * turn * bent + piece.relief * beyond * beyond
+    along_s, rise_s = 1.0 - turn * turn * bent, turn * straight + 2.0 * piece.relief * beyond
     along, rise, along_s, rise_s = once((along, rise, along_s, rise_s))
     point = tuple(
         p + along * t + rise * m

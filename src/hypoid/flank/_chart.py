@@ -72,48 +72,51 @@ class Chart:
         return x, 2.0 * t - 1.0
 
 
-def _distance_at(
-    surface: Surface, piece: EdgePiece, cone: PitchCone, distance: Batch, s: Batch, theta: Batch
-) -> tuple[Batch, ...]:
-    """theta, H and angle where the line s = const of a piece reaches the cone distance S."""
-
-    def at(angle: Batch) -> tuple[Batch, Batch, Batch]:
-        z, rho, turn = axial_radial_angle(surface, piece, s, angle)
-        return *cone.cone_distance_height(z, rho), turn
-
-    def step(_: int, angle: Batch) -> Batch:
-        (reached, *_), (slope, *_) = jax.jvp(at, (angle,), (jnp.ones_like(angle),))
-        return angle - jnp.clip(jnp.nan_to_num((reached - distance) / slope), -0.05, 0.05)
-
-    theta = jax.lax.fori_loop(0, 25, step, theta)
-    reached, height, turn = at(theta)
-    return theta, height, turn, jnp.abs(reached - distance)
-
-
-def _height_at(
+def _solve(
     surface: Surface,
     piece: EdgePiece,
     cone: PitchCone,
     distance: Batch,
     height: Batch,
+    held: Batch,
     s: Batch,
     theta: Batch,
 ) -> tuple[Batch, ...]:
-    """s, theta and angle of the point (S, H) of a piece, with what is left and the chart's sense."""
+    """s, theta, H and angle where a piece reaches S and H (or, where s is held, S alone).
 
-    def residual(a: Batch, b: Batch) -> tuple[Batch, Batch]:
-        z, rho, _ = axial_radial_angle(surface, piece, a, b)
+    With what is left of (S, H) and the determinant of their derivatives by (s, theta).
+    """
+    given = s
+
+    def place(a: Batch, b: Batch) -> tuple[Batch, ...]:
+        z, rho, angle = axial_radial_angle(surface, piece, a, b)
         reached, at = cone.cone_distance_height(z, rho)
-        return reached - distance, at - height
+        return reached - distance, jnp.where(held > 0.5, a - given, at - height), at, angle
 
-    s, theta = newton_pair(residual, (s, theta), (0.3, 0.02), 20)
-    (f, g), j = value_and_jacobian(residual, s, theta)
-    _, _, angle = axial_radial_angle(surface, piece, s, theta)
-    return s, theta, angle, jnp.hypot(f, g), j[0] * j[3] - j[1] * j[2]
+    s, theta = newton_pair(place, (s, theta), (0.3, 0.02), 25)
+    (f, g, at, angle), j = value_and_jacobian(place, s, theta)
+    return s, theta, at, angle, jnp.hypot(f, g), j[0] * j[3] - j[1] * j[2]
 
 
-distance_at = Batched(_distance_at, parameters=3)
-height_at = Batched(_height_at, parameters=3)
+_solved = Batched(_solve, parameters=3, block=256)
+
+
+def height_at(
+    surface: Surface, piece: EdgePiece, cone: PitchCone, distance: Any, height: Any, s: Any, theta: Any
+) -> tuple[Any, ...]:
+    """s, theta and angle of the point (S, H) of a piece, with what is left and the chart's sense."""
+    held = np.zeros(np.shape(distance))
+    s, theta, _, *rest = _solved(surface, piece, cone, distance, height, held, s, theta)
+    return s, theta, *rest
+
+
+def _edge_line(
+    surface: Surface, piece: EdgePiece, cone: PitchCone, distance: Any, s: float, theta: float
+) -> tuple[Any, Any]:
+    """theta and H where the line s = const of a piece reaches the cone distances S."""
+    full = np.ones(len(distance))
+    at = (distance, 0.0 * full, full, s * full, theta * full)
+    return tuple(_solved(surface, piece, cone, *at)[1:3])  # pyright: ignore[reportReturnType]
 
 
 def chart(
@@ -130,9 +133,8 @@ def chart(
     distance = 0.5 * (heel + toe) + 0.5 * (heel - toe) * x
     low, high = float(piece.low), float(piece.high)
     full = np.full(COLUMNS, 1.0)
-    theta = theta_start * full
-    theta_low, height_low, *_ = distance_at(surface, piece, cone, distance, low * full, theta)
-    theta_high, height_high, *_ = distance_at(surface, piece, cone, distance, high * full, theta)
+    theta_low, height_low = _edge_line(surface, piece, cone, distance, low, theta_start)
+    theta_high, height_high = _edge_line(surface, piece, cone, distance, high, theta_start)
     t = 0.5 * (1.0 + y)
     share = t**2 if rooted else t
     mix = np.outer(full, share)

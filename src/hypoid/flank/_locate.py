@@ -1,4 +1,4 @@
-"""From a place (z, rho) to the surface: chart start, chord Newton, and the exact point there."""
+"""From a place (z, rho) to the surface: chart start, corrections, and the exact point there."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import jax
 import jax.numpy as jnp
 
 from ..cutter import EdgePiece
-from ..geometry import Batch, Batched, horner
+from ..geometry import Batch, Batched, horner, once
 from ._chart import Chart, PitchCone
 from ._envelope import (
     Surface,
@@ -14,59 +14,57 @@ from ._envelope import (
     newton_pair,
     placed,
     position_and_normal,
-    solve_pair,
     value_and_jacobian,
 )
 
 
-def _start(chart: Chart, cone: PitchCone, z: Batch, rho: Batch) -> tuple[Batch, Batch]:
+AIMS = 5  # tries of the quick way
+ARRIVED = 2e-12  # mm, what rounding leaves
+
+
+def _start(chart: Chart, cone: PitchCone, z: Any, rho: Any) -> tuple[Any, Any]:
     x, y = chart.coordinates(*cone.cone_distance_height(z, rho))
-    x, y = jnp.clip(x, -1.05, 1.05), jnp.clip(y, -1.05, 1.05)
-    return horner(chart.s, x, y), horner(chart.theta, x, y)
-
-
-def _finish(
-    surface: Surface, piece: EdgePiece, z: Batch, rho: Batch, s: Batch, theta: Batch, sense: Batch
-) -> tuple[Batch, ...]:
-    position, normal = position_and_normal(surface, piece, s, theta)
-    radius = jnp.sqrt(position[0] ** 2 + position[1] ** 2)
-    left = jnp.abs(position[2] - z) + jnp.abs(radius - rho)
-    return *position, *normal, s, theta, jnp.where(jnp.isfinite(left), left, jnp.inf), sense
+    x, y = once((x.clip(-1.05, 1.05), y.clip(-1.05, 1.05)))
+    return once((horner(chart.s, x, y), horner(chart.theta, x, y)))
 
 
 def _locate(
     surface: Surface, piece: EdgePiece, chart: Chart, cone: PitchCone, z: Batch, rho: Batch
 ) -> tuple[Batch, ...]:
-    """Position, normal, s, theta, what is left (mm) and Jacobian sense at (z, rho): the quick way.
+    """Position, normal, s, theta and what is left (mm) at (z, rho): the quick way.
 
-    The chart is good to a micrometre or far better, so the Jacobian at its start serves both steps.
+    The chart is read at a place moved by what it missed, so its own slope serves as the Jacobian:
+    each try leaves the error times the chart's relative error in slope, 1e-3 or far less.
     """
-    s, theta = _start(chart, cone, z, rho)
 
-    def residual(a: Batch, b: Batch) -> tuple[Batch, Batch]:
-        reached, radius, _ = axial_radial_angle(surface, piece, a, b)
-        return reached - z, radius - rho
+    def look(aim: tuple[Batch, Batch]) -> tuple[tuple[Batch, Batch], tuple[Batch, ...]]:
+        s, theta = _start(chart, cone, *aim)
+        position, normal = once(position_and_normal(surface, piece, s, theta))
+        miss_z = z - position[2]
+        miss_rho = rho - jnp.sqrt(position[0] ** 2 + position[1] ** 2)
+        left = jnp.abs(miss_z) + jnp.abs(miss_rho)
+        left = jnp.where(jnp.isfinite(left), left, jnp.inf)
+        return (aim[0] + miss_z, aim[1] + miss_rho), (*position, *normal, s, theta, left)
 
-    (f, g), jacobian = value_and_jacobian(residual, s, theta)
-    ds, dt = solve_pair(jacobian, f, g)
-    s, theta = s - ds, theta - dt
-    ds, dt = solve_pair(jacobian, *residual(s, theta))
-    sense = jacobian[0] * jacobian[3] - jacobian[1] * jacobian[2]
-    return _finish(surface, piece, z, rho, s - ds, theta - dt, sense)
+    def go_on(state: Any) -> Any:
+        tries, _, found = state
+        return (tries < AIMS) & jnp.any(found[-1] > ARRIVED)
+
+    def again(state: Any) -> Any:
+        return state[0] + 1, *look(state[1])
+
+    nowhere = (jnp.full_like(z, jnp.inf),) * 9
+    return jax.lax.while_loop(go_on, again, (0, (z, rho), nowhere))[2]
 
 
-def _locate_slowly(
-    surface: Surface, piece: EdgePiece, chart: Chart, cone: PitchCone, z: Batch, rho: Batch
-) -> tuple[Batch, ...]:
-    """The same by full Newton with limited steps, where the quick way did not arrive."""
-
-    def residual(a: Batch, b: Batch) -> tuple[Batch, Batch]:
-        reached, radius, _ = axial_radial_angle(surface, piece, a, b)
-        return reached - z, radius - rho
-
-    s, theta = newton_pair(residual, _start(chart, cone, z, rho), (0.2, 0.02), 25)
-    _, j = value_and_jacobian(residual, s, theta)
-    return _finish(surface, piece, z, rho, s, theta, j[0] * j[3] - j[1] * j[2])
+def locate_slowly(
+    surface: Surface, piece: EdgePiece, chart: Chart, cone: PitchCone, z: Rows, rho: Rows
+) -> Rows:
+    """The same by full Newton with limited steps, and the Jacobian's sense: where charts fail."""
+    start = _start(chart, cone, z, rho)
+    place = cone.cone_distance_height(z, rho)
+    s, theta, _, left, sense = height_at(surface, piece, cone, *place, *start)
+    return np.vstack([from_cutter(surface, piece, s, theta), s, theta, left, sense])
 
 
 def _from_cutter(
@@ -120,7 +118,6 @@ def _curvatures(
 
 
 locate = Batched(_locate, parameters=4)
-locate_slowly = Batched(_locate_slowly, parameters=4)
 from_cutter = Batched(_from_cutter, parameters=2)
-roots_near = Batched(_roots_near, parameters=2)
-curvatures = Batched(_curvatures, parameters=2)
+roots_near = Batched(_roots_near, parameters=2, block=128)
+curvatures = Batched(_curvatures, parameters=2, block=512)

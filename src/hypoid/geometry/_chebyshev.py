@@ -52,14 +52,15 @@ def horner_line(coefficients: Any, x: Batch) -> Batch:
 def horner(coefficients: Any, x: Batch, y: Batch) -> Batch:
     """Value at (x, y) in [-1, 1]**2 of a tensor polynomial given by its powers (i, j).
 
-    All columns at once, then down the row: few operations to trace, and XLA fuses them anyway.
+    All columns at once, then along the row: few operations to trace, and XLA fuses them anyway.
     """
-    columns = coefficients[-1] + 0.0 * x[..., None]
+    spread = coefficients.reshape(*coefficients.shape, *(1,) * np.ndim(x))
+    columns = spread[-1] + 0.0 * x
     for k in range(coefficients.shape[0] - 2, -1, -1):
-        columns = columns * x[..., None] + coefficients[k]
-    total = columns[..., -1]
-    for j in range(coefficients.shape[1] - 2, -1, -1):
-        total = total * y + columns[..., j]
+        columns = columns * x + spread[k]
+    total = columns[-1]
+    for k in range(coefficients.shape[1] - 2, -1, -1):
+        total = total * y + columns[k]
     return total
 
 
