@@ -63,7 +63,7 @@ def test_blank_for_people_is_a_table(hypoid: Any) -> None:
     assert "10.7913" in out
 
 
-@pytest.mark.parametrize("command", ["check", "blank", "settings", "flank", "contact"])
+@pytest.mark.parametrize("command", ["check", "blank", "settings", "flank", "contact", "report"])
 def test_bad_file_is_status_2_with_problems_as_json(
     hypoid: Any, tmp_path: Path, command: str
 ) -> None:
@@ -102,6 +102,7 @@ def test_geometry_that_cannot_be_is_bad_input(
         ("flank", EXAMPLE, "--side", "left"),
         ("contact", EXAMPLE, "--offset", "0.1"),
         ("contact", EXAMPLE, "--offset", "1 deg", "--shaft-angle", "-1 mm"),
+        ("report", EXAMPLE, "-o", "no/such/folder/report.html"),
         ("blank", "no/such/file.toml"),
         ("blank", "."),
     ],

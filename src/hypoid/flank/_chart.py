@@ -8,7 +8,7 @@ with the square of the edge length, so a fillet's y counts the root of the heigh
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import jax
@@ -17,7 +17,7 @@ import numpy as np
 
 from ..cutter import EdgePiece
 from ..geometry import Batch, Batched, Scalar, fit, fit_line, horner, horner_line, namespace, nodes, on_unit
-from ._envelope import Surface, axial_radial_angle, newton_pair, value_and_jacobian
+from ._envelope import Surface, axial_radial_angle, newton_pair
 
 COLUMNS, ROWS = 14, 12  # polynomial orders along S and across
 
@@ -55,7 +55,8 @@ class Chart:
     s: Any
     theta: Any
     rooted: Scalar  # 1 where y counts the root of the height (fillet), else 0
-    error: Scalar = field(metadata={"static": False})  # greatest misfit of the angle seen, rad
+    sense: Scalar  # sign of the derivatives' determinant of (S, H) by (s, theta), mid-face
+    error: Scalar  # greatest misfit of the angle seen, rad; infinite where the piece folds
 
     def bounds(self, distance: Batch) -> tuple[Batch, Batch]:
         """H_low and H_high (mm) at cone distance S."""
@@ -93,8 +94,7 @@ def _solve(
         reached, at = cone.cone_distance_height(z, rho)
         return reached - distance, jnp.where(held > 0.5, a - given, at - height), at, angle
 
-    s, theta = newton_pair(place, (s, theta), (0.3, 0.02), 25)
-    (f, g, at, angle), j = value_and_jacobian(place, s, theta)
+    (s, theta), (f, g, at, angle), j = newton_pair(place, (s, theta), (0.3, 0.02), 25)
     return s, theta, at, angle, jnp.hypot(f, g), j[0] * j[3] - j[1] * j[2]
 
 
@@ -142,12 +142,14 @@ def chart(
     s0 = low + (high - low) * np.outer(full, t)
     theta0 = theta_low[:, None] + (theta_high - theta_low)[:, None] * np.outer(full, t)
     shape = heights.shape
-    s, theta, angle, left, _ = (
+    s, theta, angle, left, sense = (
         part.reshape(shape)
         for part in height_at(
             surface, piece, cone, np.outer(distance, np.ones(ROWS)), heights, s0, theta0
         )
     )
+    one_sense = bool(np.all(sense > 0.0) or np.all(sense < 0.0))
+    sound = left.max() < 1e-8 and one_sense
     made = Chart(
         toe=toe,
         heel=heel,
@@ -157,9 +159,10 @@ def chart(
         s=fit(s),
         theta=fit(theta),
         rooted=float(rooted),
-        error=0.0,
+        sense=float(np.sign(sense[COLUMNS // 2, ROWS // 2])),
+        error=np.inf,
     )
-    return replace(made, error=_misfit(made, surface, piece, cone) if left.max() < 1e-8 else np.inf)
+    return replace(made, error=_misfit(made, surface, piece, cone)) if sound else made
 
 
 def _misfit(made: Chart, surface: Surface, piece: EdgePiece, cone: PitchCone) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 import jax
 import jax.numpy as jnp
@@ -54,27 +55,36 @@ def axial_radial_angle(
     return z, jnp.sqrt(x * x + y * y), jnp.arctan2(y, x) - at.turn
 
 
+Jacobian = tuple[Batch, Batch, Batch, Batch]
+
+
 def newton_pair(
-    residual: Callable[[Batch, Batch], tuple[Batch, Batch]],
+    function: Callable[[Batch, Batch], tuple[Batch, ...]],
     start: tuple[Batch, Batch],
     limit: tuple[Scalar, Scalar],
     steps: int,
-) -> tuple[Batch, Batch]:
-    """Newton in two unknowns with limited steps, all points side by side."""
+) -> tuple[tuple[Batch, Batch], tuple[Batch, ...], Jacobian]:
+    """Newton in two unknowns with limited steps towards the zero of a function's first two values.
 
-    def step(_: int, at: tuple[Batch, Batch]) -> tuple[Batch, Batch]:
-        (f, g), jacobian = value_and_jacobian(residual, *at)
-        ds, dt = solve_pair(jacobian, f, g)
+    All points side by side. Returns where it ended, with all values and the Jacobian there.
+    """
+
+    def step(_: int, state: Any) -> Any:
+        (a, b), (da, db), *_ = state
+        at = a - da, b - db
+        values, jacobian = value_and_jacobian(function, *at)
+        da, db = solve_pair(jacobian, values[0], values[1])
         # one factor for both, so that a limited step keeps its direction
-        k = 1.0 / jnp.maximum(1.0, jnp.maximum(jnp.abs(ds) / limit[0], jnp.abs(dt) / limit[1]))
+        k = 1.0 / jnp.maximum(1.0, jnp.maximum(jnp.abs(da) / limit[0], jnp.abs(db) / limit[1]))
         k = jnp.where(jnp.isfinite(k), k, 0.0)
-        clean = (jnp.nan_to_num(ds), jnp.nan_to_num(dt))
-        return at[0] - k * clean[0], at[1] - k * clean[1]
+        return at, (k * jnp.nan_to_num(da), k * jnp.nan_to_num(db)), values, jacobian
 
-    return jax.lax.fori_loop(0, steps, step, start)
-
-
-Jacobian = tuple[Batch, Batch, Batch, Batch]
+    # Each turn moves first and looks then, so that what is seen last needs no compiling of its own.
+    zero = jnp.zeros_like(start[0])
+    seen = (zero,) * len(jax.eval_shape(function, *start))
+    state = (start, (zero, zero), seen, (zero,) * 4)
+    at, _, values, jacobian = jax.lax.fori_loop(0, steps + 1, step, state)
+    return at, values, jacobian
 
 
 def value_and_jacobian(

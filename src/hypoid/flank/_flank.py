@@ -120,46 +120,56 @@ class Flank:
         (undercut), the one that removes most is the tooth (design, section 2).
         """
         z, rho = (a.ravel() for a in np.broadcast_arrays(*(np.asarray(v, float) for v in (z, rho))))
-        n = len(z)
         distance, height = self.cone.cone_distance_height(z, rho)
-        slack = 1e-6
-        inside = (distance >= self.toe - slack) & (distance <= self.heel + slack)
-        inside &= (height <= self.tip + slack) & (height >= self.root - slack)
-        values = np.full((8, n), np.nan)
-        status = np.full(n, PointStatus.NOT_CONVERGED, dtype=np.int8)
-        piece = np.zeros(n, dtype=np.int8)
         asked = np.isfinite(z) & np.isfinite(rho)
-        waiting = np.flatnonzero(asked)
-        for index, name in enumerate(CUT_PIECES):
-            if not len(waiting):
-                break
-            got, state = self._on_piece(name, z[waiting], rho[waiting])
-            better = (state == PointStatus.OK) & (
-                (status[waiting] != PointStatus.OK) | self._removes_more(got, values[:, waiting])
-            )
-            better |= (state == PointStatus.SINGULAR) & (status[waiting] > PointStatus.SINGULAR)
-            take = waiting[better]
-            values[:, take], status[take], piece[take] = got[:, better], state[better], index
-            if self.generated:
-                waiting = waiting[status[waiting] != PointStatus.OK]
-        values[:, (status == PointStatus.SINGULAR) | (status == PointStatus.NOT_CONVERGED)] = np.nan
-        status[~inside & asked] = PointStatus.OUTSIDE_BLANK
-        return FlankPoints(
-            position=values[:3].T,
-            normal=values[3:6].T,
-            status=status,
-            piece=piece,
-            s=values[6],
-            theta=values[7],
-            flank=self,
-        )
+        values = np.full((8, len(z)), np.nan)
+        status = np.full(len(z), PointStatus.NOT_CONVERGED, dtype=np.int8)
+        piece = np.zeros(len(z), dtype=np.int8)
+
+        def ask(index: int, places: Array) -> None:
+            if not len(places):
+                return
+            got, state = self._on_piece(CUT_PIECES[index], z[places], rho[places])
+            before = status[places]
+            take = (state == PointStatus.SINGULAR) & (before == PointStatus.NOT_CONVERGED)
+            take |= (state == PointStatus.OK) & (before != PointStatus.OK)
+            both = np.flatnonzero((state == PointStatus.OK) & (before == PointStatus.OK))
+            take[both] = self._removes_more(got[:, both], values[:, places[both]])
+            if not take.all():
+                places, got, state = places[take], got[:, take], state[take]
+            values[:, places], status[places], piece[places] = got[:8], state, index
+
+        if self.generated:  # flank above, fillet below their common edge; at the edge, the other one
+            above = height >= self.charts["flank"].bounds(distance)[0]
+            ask(0, np.flatnonzero(asked & above))
+            ask(1, np.flatnonzero(asked & ~above))
+            missed = asked & (status != PointStatus.OK)
+            ask(1, np.flatnonzero(missed & above))
+            ask(0, np.flatnonzero(missed & ~above))
+        else:
+            for index in range(len(CUT_PIECES)):
+                ask(index, np.flatnonzero(asked))
+        failed = np.flatnonzero(status >= PointStatus.SINGULAR)
+        values[:, failed] = np.nan
+        status[asked & ~self._on_blank(distance, height)] = PointStatus.OUTSIDE_BLANK
+        position, normal = self._handed(values)
+        return FlankPoints(position, normal, status, piece, values[6], values[7], self)
 
     def at_cutter(self, s: Any, theta: Any, piece: str = "flank") -> tuple[Array, Array]:
         """Points (n, 3) mm and unit normals (n, 3) from edge parameter s (mm) and cutter turn (rad)."""
-        values = np.array(from_cutter(self.surface, self.pieces[piece], s, theta))
+        return self._handed(from_cutter(self.surface, self.pieces[piece], s, theta))
+
+    def _handed(self, values: Array) -> tuple[Array, Array]:
+        """Positions and normals (n, 3) of the member's own hand, from rows of a left-hand one."""
         if self.mirrored:
-            values[[1, 4]] *= -1.0
-        return values[:3].T, values[3:].T
+            values[1] *= -1.0
+            values[4] *= -1.0
+        return values[:3].T, values[3:6].T
+
+    def _on_blank(self, distance: Array, height: Array) -> Array:
+        slack = 1e-6
+        inside = (distance >= self.toe - slack) & (distance <= self.heel + slack)
+        return inside & (height <= self.tip + slack) & (height >= self.root - slack)
 
     def parameters(self, distance: Any, height: Any) -> tuple[Array, Array, Array]:
         """Edge parameter s (mm), cutter turn (rad) and angle about the axis (rad) at (S, H), mm.
@@ -202,35 +212,42 @@ class Flank:
         return self.at(*self.cone.axial_radial(np.asarray(distance), np.asarray(height)))
 
     def _on_piece(self, name: str, z: Array, rho: Array) -> tuple[Array, Array]:
-        piece, chart = self.pieces[name], self.charts[name]
-        values = np.array(locate(self.surface, piece, chart, self.cone, z, rho))
-        poor = ~(values[8] < TOLERANCE)
-        distance, height = self.cone.cone_distance_height(z, rho)
-        _, y = chart.coordinates(distance, height)
-        poor &= np.abs(np.asarray(y)) < 1.5  # elsewhere the piece is not asked for
-        if poor.any():
-            values[:, poor] = locate_slowly(
-                self.surface, piece, chart, self.cone, z[poor], rho[poor]
-            )
-        s, left, sense = values[6], values[8], values[9]
-        # Where the fillet runs out into the root land, the equations have a double root.
-        runout = s < float(piece.low) + RUNOUT if name == "fillet" else np.zeros(len(s), bool)
-        met = left < np.where(runout, RUNOUT_TOLERANCE, TOLERANCE)
-        own = (s >= float(piece.low) - np.where(runout, RUNOUT, EDGE)) & (s <= float(piece.high) + EDGE)
-        state = np.full(len(z), PointStatus.NOT_CONVERGED, dtype=np.int8)
-        state[met & own] = PointStatus.OK
-        state[met & own & (sense * self._sense < 0.0) & ~runout] = PointStatus.SINGULAR
-        if self.mirrored:
-            values[[1, 4]] *= -1.0
-        return values[:8], state
+        """Rows of values (position, normal, s, theta; left hand) and a status at places (z, rho).
 
-    @cached_property
+        The quick way only arrives where surface and chart have one sense, so the chart's serves.
+        """
+        piece, chart = self.pieces[name], self.charts[name]
+        args = (self.surface, piece, chart, self.cone)
+        sense = np.full(len(z), chart.sense)
+        if np.isfinite(chart.error):
+            values = locate(*args, z, rho)
+        else:
+            values = np.full((9, len(z)), np.inf)
+        poor = np.flatnonzero(~(values[8] < TOLERANCE))
+        if len(poor):
+            _, y = chart.coordinates(*self.cone.cone_distance_height(z[poor], rho[poor]))
+            poor = poor[np.abs(y) < 1.5]  # elsewhere the piece is not asked for
+        if len(poor):
+            *slowly, sense[poor] = locate_slowly(*args, z[poor], rho[poor])
+            values[:, poor] = slowly
+        s, left = values[6], values[8]
+        low, high = float(piece.low) - EDGE, float(piece.high) + EDGE
+        met, singular = left < TOLERANCE, sense * self._sense < 0.0
+        if name == "fillet":  # where it runs out into the root land, the equations have a double root
+            runout = s < float(piece.low) + RUNOUT
+            met |= runout & (left < RUNOUT_TOLERANCE)
+            low = np.where(runout, float(piece.low) - RUNOUT, low)
+            singular &= ~runout
+        met &= (s >= low) & (s <= high)
+        state = np.full(len(z), PointStatus.NOT_CONVERGED, dtype=np.int8)
+        state[met] = PointStatus.OK
+        state[met & singular] = PointStatus.SINGULAR
+        return values, state
+
+    @property
     def _sense(self) -> float:
         """Sign of the (s, theta) -> (z, rho) Jacobian on the sound side of the flank."""
-        z, rho = self.cone.axial_radial(0.5 * (self.toe + self.heel), 0.0)
-        one = np.ones(1)
-        args = (self.surface, self.pieces["flank"], self.charts["flank"], self.cone)
-        return float(np.sign(locate(*args, z * one, rho * one)[9][0]))
+        return float(self.charts["flank"].sense)
 
     @staticmethod
     def _removes_more(new: Array, old: Array) -> Array:

@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import jax
 import jax.numpy as jnp
+import numpy as np
 
 from ..cutter import EdgePiece
-from ..geometry import Batch, Batched, horner, once
-from ._chart import Chart, PitchCone
-from ._envelope import (
-    Surface,
-    axial_radial_angle,
-    newton_pair,
-    placed,
-    position_and_normal,
-    value_and_jacobian,
-)
-
+from ..geometry import Batch, Batched, Rows, horner, once
+from ._chart import Chart, PitchCone, height_at
+from ._envelope import Surface, placed, position_and_normal
 
 AIMS = 5  # tries of the quick way
 ARRIVED = 2e-12  # mm, what rounding leaves

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from ._chebyshev import on_unit as on_unit
     from ._jax import Batch as Batch
     from ._jax import Batched as Batched
+    from ._jax import Rows as Rows
     from ._jax import Scalar as Scalar
     from ._jax import Vector as Vector
     from ._jax import compiled as compiled
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "_chebyshev": ("fit", "fit_line", "horner", "horner_line", "nodes", "on_unit"),
-    "_jax": ("Batch", "Batched", "Scalar", "Vector", "compiled", "once"),
+    "_jax": ("Batch", "Batched", "Rows", "Scalar", "Vector", "compiled", "once"),
     "_namespace": ("namespace",),
     "_vector": ("add", "cross", "dot", "scale", "turn_z", "unit"),
 }

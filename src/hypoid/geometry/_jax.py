@@ -20,6 +20,8 @@ import numpy as np
 from jaxtyping import Float
 from platformdirs import user_cache_dir
 
+from ._namespace import namespace
+
 jax.config.update("jax_enable_x64", True)
 if jax.config.jax_compilation_cache_dir is None:
     jax.config.update(
@@ -48,7 +50,7 @@ Tree = TypeVar("Tree")
 
 def once(values: Tree) -> Tree:
     """The same values, kept in memory: whatever uses them reads them, nothing computes them again."""
-    return jax.lax.optimization_barrier(values)
+    return values if namespace(values) is np else jax.lax.optimization_barrier(values)
 
 
 @cache
