@@ -6,7 +6,7 @@ from importlib.metadata import version as installed_version
 
 project = "hypoid"
 author = "the hypoid authors"
-copyright = "the hypoid authors, Apache-2.0"  # noqa: A001 - Sphinx's own name
+copyright = "the hypoid authors, Apache-2.0"
 release = version = installed_version("hypoid")
 
 extensions = ["myst_nb"]

@@ -52,7 +52,9 @@ def test_table_4_wheel(paper_pair: GearPair, name: str, side: Literal["concave",
 
 @pytest.mark.parametrize("side", ["concave", "convex"])
 @pytest.mark.parametrize("name", TABLE_5)
-def test_table_5_pinion(paper_pair: GearPair, name: str, side: Literal["concave", "convex"]) -> None:
+def test_table_5_pinion(
+    paper_pair: GearPair, name: str, side: Literal["concave", "convex"]
+) -> None:
     assert printed(paper_pair.pinion.sheet(side), name, TABLE_5[name])
 
 

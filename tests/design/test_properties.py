@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import degrees, radians
+
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, assume, given, settings

@@ -12,7 +12,7 @@ import pytest
 from independent import Envelope
 
 from hypoid.design import ExactFaceHobbedSpec, TipRelief, build
-from hypoid.flank import Flank, PointStatus
+from hypoid.flank import Flank
 from hypoid.pair import GearPair
 
 Array = np.ndarray[Any, Any]
@@ -72,7 +72,10 @@ def test_at_returns_the_place_that_was_asked(flank: Flank) -> None:
     if flank.settings.constant_motion and flank.settings.tilt_angle == 0.0:
         assert points.ok.all()  # exactly as designed
     assert points.ok.mean() > 0.9
-    points, z, rho, height = (flank.at(z[points.ok], rho[points.ok]), *(v[points.ok] for v in (z, rho, height)))
+    points, z, rho, height = (
+        flank.at(z[points.ok], rho[points.ok]),
+        *(v[points.ok] for v in (z, rho, height)),
+    )
     assert points.position[:, 2] == pytest.approx(z, abs=1e-9, rel=0)
     # next to the root land the equations have a double root: 1e-6 mm there
     near = (points.piece == 1) & (points.s < 0.05)
@@ -128,9 +131,7 @@ def test_tooth_thickness_at_the_pitch_point(paper_pair: GearPair) -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_other_hand_is_the_mirror_image(
-    flank_of: Callable[[str, str], Flank], name: str
-) -> None:
+def test_other_hand_is_the_mirror_image(flank_of: Callable[[str, str], Flank], name: str) -> None:
     left, right = flank_of("plain", name), flank_of("right-hand", name)
     distance, height = (g.ravel() for g in np.meshgrid(*left.grid(9, 7)))
     a, b = left.at_cone(distance, height), right.at_cone(distance, height)

@@ -39,7 +39,9 @@ def test_against_forty_digit_differences_of_normals(
 
         def form(a: Any, b: Any, c: Any, d: Any) -> Array:
             """Inner products of (a, b) with (c, d), in float64."""
-            return np.array([[float(mpmath.fdot(list(u), list(v))) for v in (c, d)] for u in (a, b)])
+            return np.array(
+                [[float(mpmath.fdot(list(u), list(v))) for v in (c, d)] for u in (a, b)]
+            )
 
         shape = np.linalg.solve(form(r_s, r_t, r_s, r_t), form(r_s, r_t, n_s, n_t))
         expected = np.sort(np.linalg.eigvals(shape).real)[::-1]

@@ -15,7 +15,9 @@ from hypoid.pair import GearPair, Member
 Array = np.ndarray[Any, Any]
 
 
-def by_sheet(sheet: SummarySheet, apex_beyond: float, point: Array, theta: float, phi: float) -> Any:
+def by_sheet(
+    sheet: SummarySheet, apex_beyond: float, point: Array, theta: float, phi: float
+) -> Any:
     """A cutter point in the member's frame, laid out as Figs. 3-5 and A.16 do (left hand, no tilt).
 
     Machine plane as complex numbers; z_m1 points to the work (notes of 2022, item 2).

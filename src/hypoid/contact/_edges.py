@@ -10,7 +10,8 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from ..geometry import Batch, Scalar, on_unit
+from hypoid.geometry import Batch, Scalar, on_unit
+
 from ._field import AngleField, FlankNodes, lead_on_flank
 from ._mounting import Mounting
 

@@ -15,8 +15,9 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from ..flank import Chart, Flank, PitchCone, chart
-from ..geometry import Batch, Vector, horner
+from hypoid.flank import Chart, Flank, PitchCone, chart
+from hypoid.geometry import Batch, Vector, horner
+
 from ._mounting import Mounting, to_wheel
 
 
@@ -57,9 +58,7 @@ def angle_field(flank: Flank) -> AngleField:
         replace(piece, low=split),
     )
     lower, upper = (
-        chart(
-            flank.surface, p, flank.cone, flank.toe, flank.heel, flank.theta_start, rooted=False
-        )
+        chart(flank.surface, p, flank.cone, flank.toe, flank.heel, flank.theta_start, rooted=False)
         for p in parts
     )
     return AngleField(lower, upper, flank.cone, flank.tip)
@@ -85,14 +84,10 @@ def flank_nodes(flank: Flank, columns: int, rows: int) -> FlankNodes:
     share = np.linspace(0.0, 1.0, rows)
     low = np.asarray(angle_field(flank).lower.bounds(distance)[0])
     height = low + np.outer(share, flank.tip - low)
-    s, theta, _ = flank.parameters(
-        np.broadcast_to(distance, height.shape).ravel(), height.ravel()
-    )
+    s, theta, _ = flank.parameters(np.broadcast_to(distance, height.shape).ravel(), height.ravel())
     position, normal = flank.at_cutter(s, theta)
     hand = np.array([1.0, -1.0 if flank.mirrored else 1.0, 1.0])
-    return FlankNodes(
-        distance, share, height, (position * hand).T, (normal * hand).T, s, theta
-    )
+    return FlankNodes(distance, share, height, (position * hand).T, (normal * hand).T, s, theta)
 
 
 def lead(mount: Mounting, wheel: AngleField, phi: Batch, point: Vector) -> Batch:

@@ -50,14 +50,10 @@ def tip_interference(contact: UnloadedContact, columns: int = 61) -> tuple[TipIn
     )
 
 
-def _deepest(
-    contact: UnloadedContact, tip_of: str, turn: Array, columns: int
-) -> TipInterference:
+def _deepest(contact: UnloadedContact, tip_of: str, turn: Array, columns: int) -> TipInterference:
     pinion, wheel = contact.pinion_flank, contact.wheel_flank
     own, mate = (pinion, wheel) if tip_of == "pinion" else (wheel, pinion)
-    s, theta, _ = own.parameters(
-        np.linspace(own.toe, own.heel, columns), np.full(columns, own.tip)
-    )
+    s, theta, _ = own.parameters(np.linspace(own.toe, own.heel, columns), np.full(columns, own.tip))
     edge, _ = own.at_cutter(s, theta)
     m = len(contact.phi)
     tip = np.tile(edge, (m, 1))

@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from ..pair import Direction, GearPair
+from hypoid.pair import Direction, GearPair
+
 from ._mounting import Misalignment, mounting, to_wheel
 from ._pattern import pattern
 from ._unloaded import Sampling, UnloadedContact, unloaded_contact
@@ -16,9 +17,7 @@ from ._unloaded import Sampling, UnloadedContact, unloaded_contact
 Array = np.ndarray[Any, Any]
 
 # Steps of the sensitivity table: errors of a gearbox of this size [gonzalez2022, section 6.3].
-STEPS = Misalignment(
-    offset=0.05, pinion_axial=0.05, wheel_axial=0.05, shaft_angle=np.deg2rad(0.05)
-)
+STEPS = Misalignment(offset=0.05, pinion_axial=0.05, wheel_axial=0.05, shaft_angle=np.deg2rad(0.05))
 NAMES = ("offset", "pinion_axial", "wheel_axial", "shaft_angle")
 
 
@@ -140,7 +139,9 @@ def _bring_to(contact: UnloadedContact, place: str, node: int) -> VHResult:
         rate = float(mount.sense) * (field - d_angle) - pair.ratio
         return np.array([(x * nx + y * ny) / rho + radial, nz + mz, rate * rho])
 
-    answer: Any = root(conditions, np.array([start, 0.0, 0.0]), method="hybr", options={"xtol": 1e-10})
+    answer: Any = root(
+        conditions, np.array([start, 0.0, 0.0]), method="hybr", options={"xtol": 1e-10}
+    )
     left = float(np.abs(answer.fun).max())
     return VHResult(
         place,

@@ -15,9 +15,9 @@ from functools import lru_cache
 import jax
 import numpy as np
 
-from ..flank import Flank
-from ..geometry import Batch, Scalar, Vector, namespace
-from ..pair import Direction, GearPair
+from hypoid.flank import Flank
+from hypoid.geometry import Batch, Scalar, Vector, namespace
+from hypoid.pair import Direction, GearPair
 
 
 @dataclass(frozen=True)

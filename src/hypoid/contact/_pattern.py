@@ -109,7 +109,9 @@ def ease_off(contact: UnloadedContact) -> EaseOff:
     inner &= np.isfinite(lower) & np.isfinite(upper)
     # The vertex of the parabola through the best position and its neighbours; the lead there is
     # exact, and stationary, so that an error of the vertex counts squared.
-    lower, top, upper = (np.where(inner, v, -float(k == 1)) for k, v in enumerate((lower, top, upper)))
+    lower, top, upper = (
+        np.where(inner, v, -float(k == 1)) for k, v in enumerate((lower, top, upper))
+    )
     shift = 0.5 * (lower - upper) / (lower - 2.0 * top + upper)
     vertex = phi[best] + np.where(inner, shift, 0.0) * (phi[1] - phi[0])
     point = tuple(contact.nodes.point)

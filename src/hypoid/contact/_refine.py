@@ -15,9 +15,10 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from ..cutter import EdgePiece
-from ..flank import Surface, placed, position_and_normal, solve_pair
-from ..geometry import Batch, Batched, dot
+from hypoid.cutter import EdgePiece
+from hypoid.flank import Surface, placed, position_and_normal, solve_pair
+from hypoid.geometry import Batch, Batched, dot
+
 from ._mounting import Mounting, to_wheel
 
 STEPS = 6

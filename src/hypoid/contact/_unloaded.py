@@ -13,9 +13,10 @@ from functools import cached_property
 
 import numpy as np
 
-from ..flank import Flank
-from ..geometry import horner
-from ..pair import Direction, GearPair
+from hypoid.flank import Flank
+from hypoid.geometry import horner
+from hypoid.pair import Direction, GearPair
+
 from ._edges import zoom
 from ._field import FlankNodes, angle_field, flank_nodes, lead_grid
 from ._mounting import Misalignment, Mounting, mounting, to_wheel

@@ -18,7 +18,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from ..geometry import Batch, Scalar, Vector, once
+from hypoid.geometry import Batch, Scalar, Vector, once
 
 
 @jax.tree_util.register_dataclass

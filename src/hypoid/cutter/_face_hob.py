@@ -10,7 +10,8 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from ..geometry import DesignError, Problem
+from hypoid.geometry import DesignError, Problem
+
 from ._edge import EdgePiece
 
 BladeName = Literal["outer", "inner"]

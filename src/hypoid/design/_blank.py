@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from ..blank import PairBlank, pair_blank
+from hypoid.blank import PairBlank, pair_blank
+
 from ._spec import ExactFaceHobbedSpec
 
 

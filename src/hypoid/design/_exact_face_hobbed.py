@@ -11,12 +11,13 @@ import math
 from dataclasses import replace
 from typing import Any
 
-from ..blank import MemberBlank, PairBlank
-from ..cutter import Blade, BladeRelief, FaceHobHead
-from ..flank import Flank, PitchCone, Side, cut_flank
-from ..geometry import DesignError, Problem
-from ..machine import MachineSettings, SummarySheet, from_sheet, to_sheet
-from ..pair import Assumption, GearPair, Member
+from hypoid.blank import MemberBlank, PairBlank
+from hypoid.cutter import Blade, BladeRelief, FaceHobHead
+from hypoid.flank import Flank, PitchCone, Side, cut_flank
+from hypoid.geometry import DesignError, Problem
+from hypoid.machine import MachineSettings, SummarySheet, from_sheet, to_sheet
+from hypoid.pair import Assumption, GearPair, Member
+
 from ._blank import spec_blank
 from ._spec import ExactFaceHobbedSpec, TipRelief
 

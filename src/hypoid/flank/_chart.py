@@ -15,8 +15,20 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from ..cutter import EdgePiece
-from ..geometry import Batch, Batched, Scalar, fit, fit_line, horner, horner_line, namespace, nodes, on_unit
+from hypoid.cutter import EdgePiece
+from hypoid.geometry import (
+    Batch,
+    Batched,
+    Scalar,
+    fit,
+    fit_line,
+    horner,
+    horner_line,
+    namespace,
+    nodes,
+    on_unit,
+)
+
 from ._envelope import Surface, axial_radial_angle, newton_pair
 
 COLUMNS, ROWS = 14, 12  # polynomial orders along S and across
@@ -102,7 +114,13 @@ _solved = Batched(_solve, parameters=3, block=256)
 
 
 def height_at(
-    surface: Surface, piece: EdgePiece, cone: PitchCone, distance: Any, height: Any, s: Any, theta: Any
+    surface: Surface,
+    piece: EdgePiece,
+    cone: PitchCone,
+    distance: Any,
+    height: Any,
+    s: Any,
+    theta: Any,
 ) -> tuple[Any, ...]:
     """s, theta and angle of the point (S, H) of a piece, with what is left and the chart's sense."""
     held = np.zeros(np.shape(distance))
@@ -113,7 +131,7 @@ def height_at(
 def _edge_line(
     surface: Surface, piece: EdgePiece, cone: PitchCone, distance: Any, s: float, theta: float
 ) -> tuple[Any, Any]:
-    """theta and H where the line s = const of a piece reaches the cone distances S."""
+    """Theta and H where the line s = const of a piece reaches the cone distances S."""
     full = np.ones(len(distance))
     at = (distance, 0.0 * full, full, s * full, theta * full)
     return tuple(_solved(surface, piece, cone, *at)[1:3])  # pyright: ignore[reportReturnType]

@@ -9,9 +9,9 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 
-from ..cutter import EdgePiece
-from ..geometry import Batch, Scalar, Vector, once, scale, turn_z, unit
-from ..machine import Generator, Placed, place, solve_meshing, sweep
+from hypoid.cutter import EdgePiece
+from hypoid.geometry import Batch, Scalar, Vector, once, scale, turn_z, unit
+from hypoid.machine import Generator, Placed, place, solve_meshing, sweep
 
 
 @jax.tree_util.register_dataclass

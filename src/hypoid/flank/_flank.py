@@ -10,9 +10,10 @@ from typing import Any, Literal
 import numpy as np
 from jaxtyping import Float, Int
 
-from ..cutter import EdgePiece
-from ..geometry import horner
-from ..machine import MachineSettings, generator
+from hypoid.cutter import EdgePiece
+from hypoid.geometry import horner
+from hypoid.machine import MachineSettings, generator
+
 from ._chart import Chart, PitchCone, chart, height_at
 from ._envelope import Surface
 from ._locate import curvatures, from_cutter, locate, locate_slowly, roots_near
@@ -22,7 +23,10 @@ Array = np.ndarray[Any, Any]
 Side = Literal["concave", "convex"]
 CUT_PIECES = ("flank", "fillet")  # pieces that have an angle over (z, rho), in order of asking
 TOLERANCE = 1e-9  # mm, what Newton may leave
-RUNOUT, RUNOUT_TOLERANCE = 2e-2, 1e-6  # mm: last bit of edge before the root land, what is left there
+RUNOUT, RUNOUT_TOLERANCE = (
+    2e-2,
+    1e-6,
+)  # mm: last bit of edge before the root land, what is left there
 EDGE = 1e-7  # mm, how far past its own end a piece may be read
 
 
@@ -139,7 +143,9 @@ class Flank:
                 places, got, state = places[take], got[:, take], state[take]
             values[:, places], status[places], piece[places] = got[:8], state, index
 
-        if self.generated:  # flank above, fillet below their common edge; at the edge, the other one
+        if (
+            self.generated
+        ):  # flank above, fillet below their common edge; at the edge, the other one
             above = height >= self.charts["flank"].bounds(distance)[0]
             ask(0, np.flatnonzero(asked & above))
             ask(1, np.flatnonzero(asked & ~above))
@@ -233,7 +239,9 @@ class Flank:
         s, left = values[6], values[8]
         low, high = float(piece.low) - EDGE, float(piece.high) + EDGE
         met, singular = left < TOLERANCE, sense * self._sense < 0.0
-        if name == "fillet":  # where it runs out into the root land, the equations have a double root
+        if (
+            name == "fillet"
+        ):  # where it runs out into the root land, the equations have a double root
             runout = s < float(piece.low) + RUNOUT
             met |= runout & (left < RUNOUT_TOLERANCE)
             low = np.where(runout, float(piece.low) - RUNOUT, low)

@@ -8,8 +8,9 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from ..cutter import EdgePiece
-from ..geometry import Batch, Batched, Rows, horner, once
+from hypoid.cutter import EdgePiece
+from hypoid.geometry import Batch, Batched, Rows, horner, once
+
 from ._chart import Chart, PitchCone, height_at
 from ._envelope import Surface, placed, position_and_normal
 
@@ -62,23 +63,17 @@ def locate_slowly(
     return np.vstack([from_cutter(surface, piece, s, theta), s, theta, left, sense])
 
 
-def _from_cutter(
-    surface: Surface, piece: EdgePiece, s: Batch, theta: Batch
-) -> tuple[Batch, ...]:
+def _from_cutter(surface: Surface, piece: EdgePiece, s: Batch, theta: Batch) -> tuple[Batch, ...]:
     position, normal = position_and_normal(surface, piece, s, theta)
     return *position, *normal
 
 
-def _roots_near(
-    surface: Surface, piece: EdgePiece, s: Batch, theta: Batch
-) -> tuple[Batch, ...]:
+def _roots_near(surface: Surface, piece: EdgePiece, s: Batch, theta: Batch) -> tuple[Batch, ...]:
     at, discriminant = placed(surface, piece, s, theta)
     return at.phi, discriminant, *at.normal
 
 
-def _curvatures(
-    surface: Surface, piece: EdgePiece, s: Batch, theta: Batch
-) -> tuple[Batch, ...]:
+def _curvatures(surface: Surface, piece: EdgePiece, s: Batch, theta: Batch) -> tuple[Batch, ...]:
     """Principal curvatures (1/mm, convex positive) and directions, by the first two forms."""
 
     def patch(a: Batch, b: Batch) -> tuple[Batch, ...]:

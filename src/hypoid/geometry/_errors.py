@@ -16,7 +16,9 @@ class Problem:
     example: str
 
     def __str__(self) -> str:
-        return f"{self.path}: got {self.given}; expected {self.expected}; for example {self.example}"
+        return (
+            f"{self.path}: got {self.given}; expected {self.expected}; for example {self.example}"
+        )
 
 
 class DesignError(ValueError):

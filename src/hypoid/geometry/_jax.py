@@ -102,9 +102,7 @@ class Batched:
 
         def piece(start: int) -> None:
             part = slice(start, start + POINTS)
-            for target, row in zip(
-                answer[:, part], self._piece(call, arrays, start), strict=True
-            ):
+            for target, row in zip(answer[:, part], self._piece(call, arrays, start), strict=True):
                 target[:] = row[: len(target)]
 
         with ThreadPoolExecutor(WORKERS) as pool:
@@ -120,7 +118,9 @@ class Batched:
         if length < POINTS:
             parts = [_padded(a) for a in parts]
         blocks = -(-length // self._shape[1])
-        return [np.asarray(c).ravel() for c in call(blocks, *(a.reshape(self._shape) for a in parts))]
+        return [
+            np.asarray(c).ravel() for c in call(blocks, *(a.reshape(self._shape) for a in parts))
+        ]
 
     def _blocks(self, parameters: tuple[Any, ...], count: int, *arrays: Batch) -> tuple[Batch, ...]:
         def answer(index: Any) -> tuple[Batch, ...]:

@@ -14,8 +14,9 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 
-from ..cutter import EdgePiece, edge_point
-from ..geometry import Batch, Vector, add, cross, dot, once, scale, turn_z
+from hypoid.cutter import EdgePiece, edge_point
+from hypoid.geometry import Batch, Vector, add, cross, dot, once, scale, turn_z
+
 from ._settings import Generator
 
 

@@ -15,7 +15,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from ..geometry import Batch, Scalar, Vector
+from hypoid.geometry import Batch, Scalar, Vector
 
 ROLL_ORDERS = 5  # modified roll: orders 2 to 6
 

@@ -6,10 +6,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
-from ..blank import MemberBlank, PairBlank
-from ..cutter import FaceHobHead
-from ..flank import Flank, Side
-from ..machine import SummarySheet, to_sheet
+from hypoid.blank import MemberBlank, PairBlank
+from hypoid.cutter import FaceHobHead
+from hypoid.flank import Flank, Side
+from hypoid.machine import SummarySheet, to_sheet
 
 Direction = Literal["drive", "coast"]
 

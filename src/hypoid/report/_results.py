@@ -8,7 +8,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from ..contact import (
+from hypoid.contact import (
     STEPS,
     EaseOff,
     MisalignedContact,
@@ -26,7 +26,7 @@ from ..contact import (
     unloaded_contact,
     vh_check,
 )
-from ..pair import Direction, GearPair
+from hypoid.pair import Direction, GearPair
 
 DIRECTIONS: tuple[Direction, ...] = ("drive", "coast")
 ERRORS = ("offset", "pinion_axial", "wheel_axial", "shaft_angle")

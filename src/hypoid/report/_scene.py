@@ -8,13 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from ..contact import Mounting, Pattern, UnloadedContact, mounting
-from ..flank import Flank
-from ..pair import GearPair, Member
+from hypoid.contact import Mounting, Pattern, UnloadedContact, mounting
+from hypoid.flank import Flank
+from hypoid.pair import GearPair, Member
+
 from ._style import GREEN, ORANGE, SKY
 
 Array = np.ndarray[Any, Any]
@@ -181,7 +183,7 @@ def _body(member: Member) -> Part:
         profile = [toe, heel, *back, toe]
     angle = np.linspace(0.0, 2.0 * np.pi, TURNS + 1)
     strips: list[Part] = []
-    for (z0, r0), (z1, r1) in zip(profile, profile[1:], strict=False):
+    for (z0, r0), (z1, r1) in pairwise(profile):
         rows = [
             np.stack([r * np.cos(angle), r * np.sin(angle), z + 0.0 * angle], axis=-1)
             for z, r in ((z1, r1), (z0, r0))
@@ -204,7 +206,8 @@ def _grid(points: Array) -> Part:
     rows, columns = points.shape[:2]
     index = np.arange(rows * columns).reshape(rows, columns)
     a, b, c, d = (
-        corner.ravel() for corner in (index[:-1, :-1], index[:-1, 1:], index[1:, 1:], index[1:, :-1])
+        corner.ravel()
+        for corner in (index[:-1, :-1], index[:-1, 1:], index[1:, 1:], index[1:, :-1])
     )
     flat = points.reshape(-1, 3)
     triangles = np.concatenate([np.stack([a, b, c], -1), np.stack([a, c, d], -1)])
