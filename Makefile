@@ -1,5 +1,5 @@
 # Everything a fresh machine needs beyond python3, pip, git and make is set up here.
-.PHONY: demo test check docs lock clean
+.PHONY: demo test check docs bench lock clean
 .DEFAULT_GOAL := demo
 
 TOOLS := .tools
@@ -31,6 +31,9 @@ check: $(READY)
 
 docs: $(READY)
 	$(BIN)/sphinx-build -W --keep-going -b html docs docs/_build/html
+
+bench: $(READY)
+	$(BIN)/pytest benchmarks
 
 lock: | $(TOOLS)/bin/uv
 	$(UV) lock

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from pytest import approx
 
 from hypoid.contact import Sampling, UnloadedContact, ease_off, pattern, tip_interference
 from hypoid.contact import unloaded_contact as contact_of
@@ -44,8 +43,8 @@ def test_conjugate_no_transmission_error(contacts: Any, direction: str) -> None:
 def test_contact_at_the_pitch_point_at_pinion_angle_zero(contacts: Any, direction: str) -> None:
     contact = contacts("plain", direction)
     distance, height = contact.contact_point
-    assert distance == approx(contact.pair.blank.pinion.mean_cone_distance, abs=1e-9)
-    assert height == approx(0.0, abs=1e-9)
+    assert distance == pytest.approx(contact.pair.blank.pinion.mean_cone_distance, abs=1e-9)
+    assert height == pytest.approx(0.0, abs=1e-9)
 
 
 @BOTH
@@ -75,7 +74,7 @@ def test_pattern_share_against_positions(
 ) -> None:
     """Methods of contact: 0.550 / 0.578 / 0.583 of the drive flank at 21 / 41 / 81 positions a pitch."""
     contact = contact_of(paper_pair, "drive", None, Sampling(positions_per_pitch=positions))
-    assert pattern(contact, 0.0065).share == approx(share, abs=6e-3)
+    assert pattern(contact, 0.0065).share == pytest.approx(share, abs=6e-3)
 
 
 def test_wheel_tip_cuts_into_the_pinion_fillet(contacts: Any) -> None:
@@ -125,6 +124,6 @@ def test_rigid_contact_ratio_does_not_depend_on_the_sampling(paper_pair: GearPai
     fine, coarse = (
         contact_of(paper_pair, "drive", None, Sampling(positions_per_pitch=n)) for n in (40, 20)
     )
-    assert coarse.contact_ratio == approx(fine.contact_ratio, abs=1e-4)
-    assert [degrees(a) for a in fine.transfer_points] == approx([-52.144, 53.261], abs=2e-3)
-    assert radians(60) == approx(fine.pitch)
+    assert coarse.contact_ratio == pytest.approx(fine.contact_ratio, abs=1e-4)
+    assert [degrees(a) for a in fine.transfer_points] == pytest.approx([-52.144, 53.261], abs=2e-3)
+    assert radians(60) == pytest.approx(fine.pitch)

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from pytest import approx
 
 from hypoid.contact import (
     Misalignment,
@@ -69,7 +68,8 @@ def test_no_point_leads_the_wheel(relief_pair: GearPair) -> None:
     """The wheel stands where nothing penetrates: no node asks for more lead than the contact."""
     for error in (Misalignment(), Misalignment(0.05, -0.05, 0.05, radians(0.03))):
         contact = unloaded_contact(relief_pair, "coast", error)
-        assert np.nanmax(contact.leads.max(axis=1) - contact.curve) < 1e-12
+        met = np.isfinite(contact.curve)
+        assert (contact.leads[met].max(axis=1) - contact.curve[met]).max() < 1e-12
 
 
 def test_vh_check_puts_the_contact_where_it_was_asked(paper_pair: GearPair) -> None:
@@ -101,7 +101,7 @@ def test_marking_thickness_grows_the_pattern(paper_pair: GearPair) -> None:
     contact = unloaded_contact(paper_pair, "drive")
     shares = [pattern(contact, t).share for t in (0.001, 0.003, 0.0065, 0.01)]
     assert shares == sorted(shares)
-    assert shares[2] == approx(0.58, abs=0.01)
+    assert shares[2] == pytest.approx(0.58, abs=0.01)
 
 
 def test_no_contact_is_said_not_raised(paper_pair: GearPair) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import replace
 from math import cos, degrees, pi, radians, sin, tan
 from typing import Any
@@ -46,7 +47,7 @@ def test_edge_arc_begins_below_the_mating_addendum(paper_pair: GearPair) -> None
 @pytest.mark.parametrize("name", ["outer", "inner"])
 def test_pieces_join_with_one_tangent(head: FaceHobHead, name: Any) -> None:
     pieces = head.pieces(name)
-    for first, second in zip(PIECES, PIECES[1:], strict=False):
+    for first, second in itertools.pairwise(PIECES):
         point, along = end(pieces[first], pieces[first].high)
         next_point, next_along = end(pieces[second], pieces[second].low)
         assert next_point == pytest.approx(point, abs=1e-13)

@@ -84,6 +84,6 @@ def top_land(
     """
     r_n = pitch_radius / (cos(pitch_angle) * cos(spiral_angle) ** 2)
     r_tip = r_n + addendum
-    tip_angle = acos(r_n * cos(pressure_angle) / r_tip)
+    tip_angle = acos(min(1.0, r_n * cos(pressure_angle) / r_tip))  # rounding at 0 deg, no addendum
     flare = (tan(tip_angle) - tip_angle) - (tan(pressure_angle) - pressure_angle)
     return 2.0 * r_tip * (0.5 * normal_thickness / r_n - flare)

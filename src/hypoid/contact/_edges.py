@@ -1,6 +1,6 @@
 """Contact on an edge: the greatest lead where it lies on the outline of either active flank.
 
-A window of points around the best node shrinks fourfold at each level. Edges, corners and the mate's
+A window of points around the best node first slides along the outline, then shrinks. Edges, corners and the mate's
 outline need no case of their own, since a point off the mate does not count.
 """
 
@@ -15,7 +15,8 @@ from hypoid.geometry import Batch, Scalar, on_unit
 from ._field import AngleField, FlankNodes, lead_on_flank
 from ._mounting import Mounting
 
-LEVELS, SHRINK, POINTS = 6, 0.25, 9
+POINTS = 9  # a side of the window
+SLIDES, LEVELS, SHRINK = 6, 16, 0.5  # steps at full size along an outline, steps in all
 PADDING = 64  # positions are padded to a multiple of it, so that few shapes are compiled
 
 Place = tuple[Batch, Batch, Batch]  # x, y of the chart and the lead there
@@ -35,7 +36,7 @@ def _zoom(
 
     def level(k: int, place: Place) -> Place:
         x, y, value = place
-        scale = SHRINK**k
+        scale = SHRINK ** jnp.maximum(k - SLIDES, 0)
         u = jnp.clip(x[:, None] + scale * dx, -1.0, 1.0)
         v = jnp.clip(y[:, None] + scale * dy, -1.0, 1.0)
         found = lead_on_flank(mount, pinion, wheel, phi[:, None], u, v)

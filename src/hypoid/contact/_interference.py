@@ -59,6 +59,7 @@ def _deepest(contact: UnloadedContact, tip_of: str, turn: Array, columns: int) -
     tip = np.tile(edge, (m, 1))
     if own.mirrored:
         tip[:, 1] *= -1.0
+    turn = np.where(np.isfinite(turn), turn, np.nan)  # where the flanks never meet
     phi, turned = np.repeat(contact.phi, columns), np.repeat(turn, columns)
     # ``turned`` is how far the wheel has turned back, seen as a left-hand member
     if tip_of == "pinion":

@@ -122,7 +122,7 @@ def _refine(
         left = jnp.where(jnp.isfinite(left), left, jnp.inf)
         return step, (lead, left, first, first * second - mixed * mixed, w[0], w[1])
 
-    def go(_: int, state: tuple[Seen, Seen, Seen]) -> tuple[Seen, Seen, Seen]:
+    def go(_count: int, state: tuple[Seen, Seen, Seen]) -> tuple[Seen, Seen, Seen]:
         at, step, _ = state
         at = tuple(x + d for x, d in zip(at, step, strict=True))
         return at, *look(at)

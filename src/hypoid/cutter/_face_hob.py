@@ -45,7 +45,7 @@ class Blade:
     @property
     def profile(self) -> tuple[PlanePiece, ...]:
         """Land, edge arc and flank in the front plane: x off the pitch point towards the metal, z to the tip."""
-        sine, cosine = math.sin(self.pressure_angle), math.cos(self.pressure_angle)
+        cosine = math.cos(self.pressure_angle)
         arc_start_x = -self.arc_height * math.tan(self.pressure_angle) - self.edge_radius * cosine
         tip = (arc_start_x, self.reference_height)
         relief = self.relief or BladeRelief(0.0, math.inf)

@@ -69,7 +69,7 @@ def newton_pair(
     All points side by side. Returns where it ended, with all values and the Jacobian there.
     """
 
-    def step(_: int, state: Any) -> Any:
+    def step(_count: int, state: Any) -> Any:
         (a, b), (da, db), *_ = state
         at = a - da, b - db
         values, jacobian = value_and_jacobian(function, *at)

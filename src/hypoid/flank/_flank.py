@@ -124,8 +124,9 @@ class Flank:
         (undercut), the one that removes most is the tooth (design, section 2).
         """
         z, rho = (a.ravel() for a in np.broadcast_arrays(*(np.asarray(v, float) for v in (z, rho))))
-        distance, height = self.cone.cone_distance_height(z, rho)
         asked = np.isfinite(z) & np.isfinite(rho)
+        z, rho = np.where(asked, z, np.nan), np.where(asked, rho, np.nan)
+        distance, height = self.cone.cone_distance_height(z, rho)
         values = np.full((8, len(z)), np.nan)
         status = np.full(len(z), PointStatus.NOT_CONVERGED, dtype=np.int8)
         piece = np.zeros(len(z), dtype=np.int8)
@@ -225,10 +226,7 @@ class Flank:
         piece, chart = self.pieces[name], self.charts[name]
         args = (self.surface, piece, chart, self.cone)
         sense = np.full(len(z), chart.sense)
-        if np.isfinite(chart.error):
-            values = locate(*args, z, rho)
-        else:
-            values = np.full((9, len(z)), np.inf)
+        values = locate(*args, z, rho) if np.isfinite(chart.error) else np.full((9, len(z)), np.inf)
         poor = np.flatnonzero(~(values[8] < TOLERANCE))
         if len(poor):
             _, y = chart.coordinates(*self.cone.cone_distance_height(z[poor], rho[poor]))

@@ -23,15 +23,16 @@ from platformdirs import user_cache_dir
 from ._namespace import namespace
 
 jax.config.update("jax_enable_x64", True)
-if jax.config.jax_compilation_cache_dir is None:
+if jax.config.jax_compilation_cache_dir is None:  # pyright: ignore[reportAttributeAccessIssue]
     jax.config.update(
         "jax_compilation_cache_dir", os.path.join(user_cache_dir("hypoid", appauthor=False), "xla")
     )
     jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
     jax.config.update("jax_persistent_cache_min_entry_size_bytes", 0)
 
-Scalar: TypeAlias = Float[jax.Array, ""] | float
-Batch: TypeAlias = Float[jax.Array, "*n"]
+# NumPy's arrays, JAX's and its tracers pass through the same formulas; no static type covers them.
+Scalar: TypeAlias = Any  # one number
+Batch: TypeAlias = Any  # (*n,) numbers
 Vector: TypeAlias = tuple[Batch, Batch, Batch]  # a batch of vectors, component by component
 Rows: TypeAlias = Float[np.ndarray[Any, Any], "m n"]  # an answer: one row a component
 

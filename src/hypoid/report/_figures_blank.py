@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from math import degrees
-
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -44,8 +42,5 @@ def _section(axes: Axes, blank: MemberBlank, colour: str) -> None:
     axes.set_aspect("equal")
     axes.set_xlabel("axial position z [mm]")
     axes.set_ylabel("radius [mm]")
-    axes.set_title(
-        f"{blank.name}: {blank.teeth} teeth, {blank.hand} hand, "
-        f"pitch angle {degrees(blank.pitch_angle):.3f} deg"
-    )
+    axes.set_title(f"{blank.name}: {blank.teeth} teeth, {blank.hand} hand")
     axes.margins(0.08)

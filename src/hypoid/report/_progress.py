@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
 from contextlib import contextmanager
 
 Progress = Callable[[str, int, int], None]  # what is done now, steps done, steps in all
@@ -13,7 +13,7 @@ def silent(_what: str, _done: int, _total: int) -> None:
 
 
 @contextmanager
-def terminal_progress() -> Iterator[Progress]:
+def terminal_progress() -> Generator[Progress]:
     """A callback that draws a bar on standard error; silent when that is not a terminal."""
     from rich.console import Console
     from rich.progress import BarColumn, TextColumn, TimeElapsedColumn

@@ -66,7 +66,11 @@ def scene(pair: GearPair, contact: UnloadedContact | None, marked: Pattern | Non
         meshes.append(_joined(f"{member.name}", member.name, parts, turn, shift, flip, colour))
     if marked is not None and marked.touched.any():
         paint = {
-            "pinion": (pair.pinion.concave, marked.distance + 0.0 * marked.gap, marked.height),
+            "pinion": (
+                pair.pinion.concave,
+                np.broadcast_to(marked.distance, marked.gap.shape),
+                marked.height,
+            ),
             "wheel": (pair.wheel.convex, marked.wheel_distance, marked.wheel_height),
         }
         for name, (flank, distance, height) in paint.items():

@@ -57,7 +57,9 @@ def blank_table(pair: GearPair) -> str:
         return degrees(got) if angle else got
 
     blank = pair.blank
-    rows = [(t, value(blank.pinion, n, a), value(blank.wheel, n, a)) for t, n, a in _BLANK]
+    rows: list[Sequence[Any]] = [
+        (t, value(blank.pinion, n, a), value(blank.wheel, n, a)) for t, n, a in _BLANK
+    ]
     rows.insert(0, ("hand", blank.pinion.hand, blank.wheel.hand))
     rows.insert(0, ("teeth", blank.pinion.teeth, blank.wheel.teeth))
     return table(("", "pinion", "wheel"), rows)
