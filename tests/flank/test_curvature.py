@@ -25,7 +25,8 @@ def test_against_forty_digit_differences_of_normals(
     flank = flank_of(kind, name)
     middle, tip = 0.5 * (flank.toe + flank.heel), flank.tip
     points = flank.at_cone([middle, middle + 9.0, middle], [0.2, 0.8 * tip, flank.root + 0.2])
-    for i in range(3):
+    assert points.ok[:2].all()  # the third place may lie below a tilted head's root
+    for i in np.flatnonzero(points.ok):
         exact = Envelope(flank.settings, flank.pieces[("flank", "fillet")[points.piece[i]]], 1e-15)
         s, theta, h = mpmath.mpf(points.s[i]), mpmath.mpf(points.theta[i]), mpmath.mpf("1e-6")
         sign = np.array([1.0, -1.0 if flank.mirrored else 1.0, 1.0])
