@@ -124,8 +124,10 @@ class Batched:
         ]
 
     def _blocks(self, parameters: tuple[Any, ...], count: int, *arrays: Batch) -> tuple[Batch, ...]:
+        function = jax.jit(self._function)  # traced once, though its shape is asked for first
+
         def answer(index: Any) -> tuple[Batch, ...]:
-            return once(self._function(*parameters, *(a[index] for a in arrays)))
+            return once(function(*parameters, *(a[index] for a in arrays)))
 
         def step(index: Any, total: tuple[Batch, ...]) -> tuple[Batch, ...]:
             return tuple(t.at[index].set(a) for t, a in zip(total, answer(index), strict=True))
