@@ -10,7 +10,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from hypoid.geometry import Batch, Scalar, on_unit
+from hypoid.geometry import Batch, Scalar, compiled_fused, on_unit
 
 from ._field import AngleField, FlankNodes, lead_on_flank
 from ._mounting import Mounting
@@ -22,7 +22,7 @@ PADDING = 64  # positions are padded to a multiple of it, so that few shapes are
 Place = tuple[Batch, Batch, Batch]  # x, y of the chart and the lead there
 
 
-@jax.jit
+@compiled_fused
 def _zoom(
     mount: Mounting,
     pinion: AngleField,

@@ -21,6 +21,7 @@ from jaxtyping import Float
 from platformdirs import user_cache_dir
 
 from ._namespace import namespace
+from ._stored import Stored
 
 jax.config.update("jax_enable_x64", True)
 if jax.config.jax_compilation_cache_dir is None:  # pyright: ignore[reportAttributeAccessIssue]
@@ -67,9 +68,14 @@ def _options() -> dict[str, Any] | None:
     return None
 
 
-def compiled(function: Callable[P, R]) -> Callable[P, R]:
-    """Compile for the top level, with the marks of ``once`` kept on the CPU."""
-    return jax.jit(function, compiler_options=_options())
+def compiled(function: Callable[..., R], name: str = "") -> Callable[..., R]:
+    """Compile for the top level, with the marks of ``once`` kept on the CPU; kept on disk."""
+    return Stored(function, _options, name)
+
+
+def compiled_fused(function: Callable[..., R]) -> Callable[..., R]:
+    """The same for functions of one output, which XLA's own fusion serves best."""
+    return Stored(function, lambda: None)
 
 
 class Batched:
@@ -91,7 +97,9 @@ class Batched:
 
     def __call__(self, *arguments: Any) -> Rows:
         if self._compiled is None:
-            self._compiled = compiled(self._blocks)
+            inner = self._function
+            name = f"{inner.__module__}.{inner.__qualname__} in blocks of {self._shape}"
+            self._compiled = compiled(self._blocks, name)
         # Numbers of one type, whatever the caller holds: nothing compiles twice.
         parameters = jax.tree.map(_as_float64, arguments[: self._parameters])
         arrays = [np.asarray(a, float).ravel() for a in arguments[self._parameters :]]
