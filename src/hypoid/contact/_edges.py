@@ -17,7 +17,7 @@ from ._mounting import Mounting
 
 POINTS = 9  # a side of the window
 SLIDES, LEVELS, SHRINK = 6, 16, 0.5  # steps at full size along an outline, steps in all
-PADDING = 64  # positions are padded to a multiple of it, so that few shapes are compiled
+PADDING = 16  # positions are padded to a multiple of it, so that few shapes are compiled
 
 Place = tuple[Batch, Batch, Batch]  # x, y of the chart and the lead there
 

@@ -1,4 +1,4 @@
-"""JAX as the package uses it: float64, a persistent compilation cache, and compiled batches.
+"""JAX as the package uses it: float64, executables kept on disk, and compiled batches.
 
 XLA on the CPU fuses what feeds one output into one kernel, and computes whatever several outputs
 share once for each of them. So the formulas mark what is worth computing once (``once``), kernels
@@ -18,18 +18,11 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float
-from platformdirs import user_cache_dir
 
 from ._namespace import namespace
 from ._stored import Stored
 
 jax.config.update("jax_enable_x64", True)
-if jax.config.jax_compilation_cache_dir is None:  # pyright: ignore[reportAttributeAccessIssue]
-    jax.config.update(
-        "jax_compilation_cache_dir", os.path.join(user_cache_dir("hypoid", appauthor=False), "xla")
-    )
-    jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
-    jax.config.update("jax_persistent_cache_min_entry_size_bytes", 0)
 
 # NumPy's arrays, JAX's and its tracers pass through the same formulas; no static type covers them.
 Scalar: TypeAlias = Any  # one number

@@ -69,11 +69,14 @@ class Stored(Generic[R]):
         folder = Path(user_cache_dir("hypoid", appauthor=False)) / "executables"
         path = folder / key
         with suppress(Exception):  # not there, half there, or of another build: compile
-            return serialize_executable.deserialize_and_load(*pickle.loads(path.read_bytes()))
+            kept = serialize_executable.deserialize_and_load(*pickle.loads(path.read_bytes()))
+            jax.block_until_ready(kept(*leaves))  # what cannot run shows itself here
+            return kept
 
         def flat(*values: Any) -> R:
             return self._function(*jax.tree_util.tree_unflatten(tree, values))
 
+        # Never through JAX's own cache: what was read back from there cannot be kept again.
         made = jax.jit(flat, compiler_options=self._options()).lower(*leaves).compile()
         with suppress(Exception):  # a cache that cannot be written costs time, nothing else
             folder.mkdir(parents=True, exist_ok=True)
