@@ -29,4 +29,8 @@ html_show_sphinx = False
 # MathJax ships with the pages (_static/mathjax-LICENSE.txt says where it is from). Its menu could
 # fetch speech and exploring tools from the network, so it is off.
 mathjax_path = "mathjax-tex-svg.js"
-mathjax3_config = {"options": {"enableMenu": False}}
+mathjax3_config = {
+    "options": {"enableMenu": False},
+    # Extensions outside the one file are not there to be loaded: an unknown macro shows in red.
+    "tex": {"packages": {"[-]": ["autoload", "require"]}},
+}

@@ -20,7 +20,6 @@ from hypoid.machine import MachineSettings
 from hypoid.pair import Member
 
 Array = np.ndarray[Any, Any]
-DIGITS = 40
 WINDOW = 0.6  # rad of cutter turn in which one blade passes one slot
 
 
@@ -93,18 +92,16 @@ class Envelope:
         n = cross(by_s, by_theta)
         return dot(n, by_phi), mpmath.norm(n) * mpmath.norm(by_phi)
 
-    def root(self, s: Any, theta: Any, near: float) -> Any:
+    def root(self, s: Any, theta: Any, near: Any) -> Any:
         """The cradle angle of meshing next to `near`."""
         return mpmath.findroot(lambda p: self.meshing(s, theta, p)[0], (near, near + 1e-6))
 
-    def point(self, s: Any, theta: Any, near: float) -> mpmath.matrix:
-        return self.swept(s, theta, self.root(s, theta, near))
-
-    def normal(self, s: Any, theta: Any, near: float) -> mpmath.matrix:
-        """Unit normal of the generated surface (that of the swept surface at the root)."""
-        by_s, by_theta, _ = self.tangents(s, theta, self.root(s, theta, near))
+    def patch(self, s: Any, theta: Any, near: Any) -> tuple[mpmath.matrix, mpmath.matrix]:
+        """Point and unit normal of the generated surface (the swept surface's at the root)."""
+        phi = self.root(s, theta, near)
+        by_s, by_theta, _ = self.tangents(s, theta, phi)
         n = cross(by_s, by_theta)
-        return n / mpmath.norm(n)
+        return self.swept(s, theta, phi), n / mpmath.norm(n)
 
 
 def cross(u: Any, v: Any) -> mpmath.matrix:

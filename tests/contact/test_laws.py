@@ -108,3 +108,13 @@ def test_no_contact_is_said_not_raised(paper_pair: GearPair) -> None:
     apart: Any = unloaded_contact(paper_pair, "drive", Misalignment(offset=60.0), QUICK)
     assert not apart.touched
     assert not any(cut.found for cut in tip_interference(apart))
+
+
+def test_edges_that_trail_far_behind_do_not_move_the_wheel(paper_pair: GearPair) -> None:
+    """A batch may leave them unrefined: the envelope is the same."""
+    error = Misalignment(0.03, 0.08, -0.05, radians(0.04))
+    every, few = (
+        unloaded_contact(paper_pair, "coast", error, Sampling(10, every_edge=e))
+        for e in (True, False)
+    )
+    np.testing.assert_allclose(few.envelope, every.envelope, rtol=0.0, atol=1e-15)

@@ -51,16 +51,16 @@ def test_every_point_meshes(flank: Flank, forty_digits: None) -> None:
     """n . dr/dphi = 0 by 40-digit differences of the plain chain; same point, same normal."""
     for piece in ("flank", "fillet"):
         exact = Envelope(flank.settings, flank.pieces[piece])
-        s, theta = (v[[4, 22, 39]] for v in cutter_points(flank, piece))
+        s, theta = (v[[4, 39]] for v in cutter_points(flank, piece))
         position, normal = flank.at_cutter(s, theta, piece)
         if flank.mirrored:
             position, normal = position * [1, -1, 1], normal * [1, -1, 1]
-        for i in range(3):
+        for i in range(2):
             at = mpmath.mpf(s[i]), mpmath.mpf(theta[i])
             phi = exact.root(*at, 0.0)
             assert abs(phi) < 0.6  # the root on the tooth
-            assert mpmath.norm(exact.swept(*at, phi) - mpmath.matrix(position[i])) < 1e-9
-            n = exact.normal(*at, 0.0)
+            point, n = exact.patch(*at, phi)
+            assert mpmath.norm(point - mpmath.matrix(position[i])) < 1e-9
             sine = mpmath.norm(n - mpmath.matrix(normal[i]) * mpmath.fdot(n, normal[i]))
             assert sine < 1e-11
 

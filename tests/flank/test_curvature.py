@@ -30,13 +30,12 @@ def test_against_forty_digit_differences_of_normals(
         exact = Envelope(flank.settings, flank.pieces[("flank", "fillet")[points.piece[i]]], 1e-15)
         s, theta, h = mpmath.mpf(points.s[i]), mpmath.mpf(points.theta[i]), mpmath.mpf("1e-6")
         sign = np.array([1.0, -1.0 if flank.mirrored else 1.0, 1.0])
-        outward = mpmath.fdot(exact.normal(s, theta, 0.0), points.normal[i] * sign)
-        turn = 1 if outward > 0 else -1
+        phi = exact.root(s, theta, 0.0)
         ends = [(s + h, theta), (s - h, theta), (s, theta + h), (s, theta - h)]
-        r = [exact.point(*e, 0.0) for e in ends]
-        n = [turn * exact.normal(*e, 0.0) for e in ends]
+        r, n = zip(*(exact.patch(*e, phi) for e in ends), strict=True)
+        outward = mpmath.sign(mpmath.fdot(n[0], points.normal[i] * sign))
         r_s, r_t = (r[0] - r[1]) / (2 * h), (r[2] - r[3]) / (2 * h)
-        n_s, n_t = (n[0] - n[1]) / (2 * h), (n[2] - n[3]) / (2 * h)
+        n_s, n_t = (outward * (a - b) / (2 * h) for a, b in (n[:2], n[2:]))
 
         def form(a: Any, b: Any, c: Any, d: Any) -> Array:
             """Inner products of (a, b) with (c, d), in float64."""

@@ -47,8 +47,19 @@ def test_a_sound_design_is_generated_whole(paper_pair: GearPair, relief_pair: Ge
 
 @pytest.mark.parametrize(
     ("angle", "depth", "edge"),
-    [(10.0, 1.75, 0.38)],
-    ids=["at the toe"],
+    [
+        pytest.param(10.0, 1.75, 0.38, id="at the toe"),
+        pytest.param(
+            5.0,
+            2.2,
+            0.2,
+            id="all along",
+            marks=pytest.mark.xfail(
+                strict=True,
+                reason="the flank's second branch is not found, so a fillet up to 0.7 mm off has OK",
+            ),
+        ),
+    ],
 )
 def test_undercut_is_found_and_no_point_pretends(
     table_1_spec: ExactFaceHobbedSpec, angle: float, depth: float, edge: float

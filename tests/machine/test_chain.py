@@ -12,7 +12,7 @@ import pytest
 from independent import Envelope, carried
 
 from hypoid.cutter import EdgePiece, edge_point
-from hypoid.geometry import compiled, turn_z
+from hypoid.geometry import turn_z
 from hypoid.machine import (
     MachineSettings,
     Meshing,
@@ -78,7 +78,7 @@ def kinematics(plain: bool) -> Any:
         closed = [(r.cosine, r.sine, r.slope, r.discriminant) for r in roots]
         return point, meshing_function(gen, edge, phi)[0], closed
 
-    return compiled(run)
+    return jax.jit(run)  # not kept on disk: a test must run what it tests
 
 
 @pytest.mark.parametrize("seed", range(12))

@@ -10,19 +10,19 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from hypoid.geometry import Batch, Scalar, on_unit
+from hypoid.geometry import Batch, Scalar, compiled_fused, on_unit
 
 from ._field import AngleField, FlankNodes, lead_on_flank
 from ._mounting import Mounting
 
 POINTS = 9  # a side of the window
 SLIDES, LEVELS, SHRINK = 6, 16, 0.5  # steps at full size along an outline, steps in all
-PADDING = 64  # positions are padded to a multiple of it, so that few shapes are compiled
+PADDING = 16  # positions are padded to a multiple of it, so that few shapes are compiled
 
 Place = tuple[Batch, Batch, Batch]  # x, y of the chart and the lead there
 
 
-@jax.jit
+@compiled_fused
 def _zoom(
     mount: Mounting,
     pinion: AngleField,

@@ -16,7 +16,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from hypoid.flank import Chart, Flank, PitchCone, chart
-from hypoid.geometry import Batch, Vector, horner
+from hypoid.geometry import Batch, Vector, compiled_fused, horner
 
 from ._mounting import Mounting, to_wheel
 
@@ -105,13 +105,13 @@ def lead(mount: Mounting, wheel: AngleField, phi: Batch, point: Vector) -> Batch
     return jnp.where(mine, excess, -jnp.inf)
 
 
-@jax.jit
+@compiled_fused
 def lead_grid(mount: Mounting, wheel: AngleField, phi: Batch, point: Vector) -> Batch:
     """Leads (positions, points) for pinion angles phi (positions,) and points of (points,)."""
     return jax.vmap(lambda angle: lead(mount, wheel, angle, point))(phi)
 
 
-lead_each = jax.jit(lead)  # one pinion angle a point
+lead_each = compiled_fused(lead)  # one pinion angle a point
 
 
 def lead_on_flank(

@@ -133,7 +133,7 @@ def _refine(
     return *at, *found
 
 
-refine = Batched(_refine, parameters=3)
+refine = Batched(_refine, parameters=3, block=128)
 
 
 @dataclass(frozen=True)

@@ -23,6 +23,7 @@ from ._mounting import Misalignment, Mounting, mounting, to_wheel
 from ._refine import ContactPoints, refine
 
 EDGE_WINS = 1e-8  # rad: an edge counts as contact where it leads the flanks by more (2 milliarcsec)
+GRID_BIAS = 5e-5  # rad: how far a grid may misplace an edge's lead (methods: 5 arcsec), twice
 TOUCHING = 1e-9  # rad: pairs within this of the leader touch, too
 
 
@@ -35,6 +36,7 @@ class Sampling:
     pairs: int = 5  # tooth pairs that can touch at once
     columns: int = 61
     rows: int = 31
+    every_edge: bool = True  # refine edges that trail far behind, too: smooth curves, more time
 
 
 @dataclass(frozen=True)
@@ -257,6 +259,10 @@ def unloaded_contact(
     interior = points.met & _within(pinion, wheel, points) & (points.lead > top - 1e-7)
     curve = np.where(interior, points.lead, top)
     edges = np.flatnonzero(np.isfinite(top) & ~interior)
+    if not how.every_edge:
+        n, phase = how.positions_per_pitch, np.arange(len(phi)) % how.positions_per_pitch
+        leader = np.array([curve[phase == k].max() for k in range(n)])
+        edges = edges[top[edges] > leader[phase[edges]] - GRID_BIAS]
     curve[edges] = zoom(
         mount, angle_field(pinion), field, nodes, phi[edges], best[edges], top[edges]
     )

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from ._jax import Scalar as Scalar
     from ._jax import Vector as Vector
     from ._jax import compiled as compiled
+    from ._jax import compiled_fused as compiled_fused
     from ._jax import once as once
     from ._namespace import namespace as namespace
     from ._vector import add as add
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "_chebyshev": ("fit", "fit_line", "horner", "horner_line", "nodes", "on_unit"),
-    "_jax": ("Batch", "Batched", "Rows", "Scalar", "Vector", "compiled", "once"),
+    "_jax": ("Batch", "Batched", "Rows", "Scalar", "Vector", "compiled", "compiled_fused", "once"),
     "_namespace": ("namespace",),
     "_vector": ("add", "cross", "dot", "scale", "turn_z", "unit"),
 }

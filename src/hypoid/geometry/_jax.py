@@ -1,4 +1,4 @@
-"""JAX as the package uses it: float64, a persistent compilation cache, and compiled batches.
+"""JAX as the package uses it: float64, executables kept on disk, and compiled batches.
 
 XLA on the CPU fuses what feeds one output into one kernel, and computes whatever several outputs
 share once for each of them. So the formulas mark what is worth computing once (``once``), kernels
@@ -18,17 +18,11 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 from jaxtyping import Float
-from platformdirs import user_cache_dir
 
 from ._namespace import namespace
+from ._stored import Stored
 
 jax.config.update("jax_enable_x64", True)
-if jax.config.jax_compilation_cache_dir is None:  # pyright: ignore[reportAttributeAccessIssue]
-    jax.config.update(
-        "jax_compilation_cache_dir", os.path.join(user_cache_dir("hypoid", appauthor=False), "xla")
-    )
-    jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
-    jax.config.update("jax_persistent_cache_min_entry_size_bytes", 0)
 
 # NumPy's arrays, JAX's and its tracers pass through the same formulas; no static type covers them.
 Scalar: TypeAlias = Any  # one number
@@ -67,9 +61,14 @@ def _options() -> dict[str, Any] | None:
     return None
 
 
-def compiled(function: Callable[P, R]) -> Callable[P, R]:
-    """Compile for the top level, with the marks of ``once`` kept on the CPU."""
-    return jax.jit(function, compiler_options=_options())
+def compiled(function: Callable[..., R], name: str = "") -> Callable[..., R]:
+    """Compile for the top level, with the marks of ``once`` kept on the CPU; kept on disk."""
+    return Stored(function, _options, name)
+
+
+def compiled_fused(function: Callable[..., R]) -> Callable[..., R]:
+    """The same for functions of one output, which XLA's own fusion serves best."""
+    return Stored(function, lambda: None)
 
 
 class Batched:
@@ -91,7 +90,9 @@ class Batched:
 
     def __call__(self, *arguments: Any) -> Rows:
         if self._compiled is None:
-            self._compiled = compiled(self._blocks)
+            inner = self._function
+            name = f"{inner.__module__}.{inner.__qualname__} in blocks of {self._shape}"
+            self._compiled = compiled(self._blocks, name)
         # Numbers of one type, whatever the caller holds: nothing compiles twice.
         parameters = jax.tree.map(_as_float64, arguments[: self._parameters])
         arrays = [np.asarray(a, float).ravel() for a in arguments[self._parameters :]]
