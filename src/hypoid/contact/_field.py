@@ -2,8 +2,8 @@
 
 At (z, rho) a flank is an angle. A pinion point carried into the wheel frame would touch the wheel's
 flank if the wheel led by sense (field - angle); the greatest lead over all points is where the
-wheel stands (methods of contact, 2). Fields are charts split where the relief begins, so each
-half is smooth.
+wheel stands (methods of contact, 2). A field is split where the relief begins, so that each chart
+is smooth.
 """
 
 from __future__ import annotations
@@ -26,42 +26,44 @@ from ._mounting import Mounting, to_wheel
 class AngleField:
     """A left-hand flank as an angle over (S, H), between its fillet limit and its blade's end."""
 
-    lower: Chart
-    upper: Chart
+    parts: tuple[Chart, ...]  # from the fillet limit up: two where a relief begins, else one
     cone: PitchCone
     tip: float  # mm, the tooth's addendum
 
     def angle(self, distance: Batch, height: Batch) -> Batch:
         """Angle about the member's axis, rad, at cone distance S and height H."""
-        split = self.lower.bounds(distance)[1]
-        below = horner(self.lower.angle, *self.lower.coordinates(distance, height))
-        above = horner(self.upper.angle, *self.upper.coordinates(distance, height))
-        return jnp.where(height < split, below, above)
+        value, *above = (horner(p.angle, *p.coordinates(distance, height)) for p in self.parts)
+        for part, more in zip(self.parts, above, strict=False):
+            value = jnp.where(height < part.bounds(distance)[1], value, more)
+        return value
+
+    @property
+    def lowest(self) -> Chart:
+        """The chart that begins at the fillet limit, from toe to heel."""
+        return self.parts[0]
 
     def holds(self, distance: Batch, height: Batch) -> Batch:
         """Whether (S, H) lies on the active flank."""
         slack = 1e-9
-        inside = (distance >= self.lower.toe - slack) & (distance <= self.lower.heel + slack)
+        inside = (distance >= self.lowest.toe - slack) & (distance <= self.lowest.heel + slack)
         inside &= height <= self.tip + slack
-        return inside & (height >= self.lower.bounds(distance)[0] - slack)
+        return inside & (height >= self.lowest.bounds(distance)[0] - slack)
 
 
 @lru_cache(maxsize=64)
 def angle_field(flank: Flank) -> AngleField:
-    """The angle field of a flank, from two charts that meet where its relief begins."""
+    """The angle field of a flank: its chart, or two that meet where its relief begins."""
     piece = flank.pieces["flank"]
     low, high, start = float(piece.low), float(piece.high), float(piece.relief_from)
     relieved = float(piece.relief) != 0.0 and low < start < high
-    split = start if relieved else 0.5 * (low + high)
-    parts = (
-        replace(piece, high=split, relief=0.0) if relieved else replace(piece, high=split),
-        replace(piece, low=split),
-    )
-    lower, upper = (
+    if not relieved:
+        return AngleField((flank.charts["flank"],), flank.cone, flank.tip)
+    pieces = (replace(piece, high=start, relief=0.0), replace(piece, low=start))
+    parts = tuple(
         chart(flank.surface, p, flank.cone, flank.toe, flank.heel, flank.theta_start, rooted=False)
-        for p in parts
+        for p in pieces
     )
-    return AngleField(lower, upper, flank.cone, flank.tip)
+    return AngleField(parts, flank.cone, flank.tip)
 
 
 @dataclass(frozen=True)
@@ -82,7 +84,7 @@ def flank_nodes(flank: Flank, columns: int, rows: int) -> FlankNodes:
     """Exact points of a flank over its active part."""
     distance = np.linspace(flank.toe, flank.heel, columns)
     share = np.linspace(0.0, 1.0, rows)
-    low = np.asarray(angle_field(flank).lower.bounds(distance)[0])
+    low = np.asarray(angle_field(flank).lowest.bounds(distance)[0])
     height = low + np.outer(share, flank.tip - low)
     s, theta, _ = flank.parameters(np.broadcast_to(distance, height.shape).ravel(), height.ravel())
     position, normal = flank.at_cutter(s, theta)
@@ -118,9 +120,9 @@ def lead_on_flank(
     mount: Mounting, pinion: AngleField, wheel: AngleField, phi: Batch, x: Batch, y: Batch
 ) -> Batch:
     """Leads at chart places of the pinion: x, y in [-1, 1] from toe to heel, fillet limit to tip."""
-    distance = 0.5 * (pinion.lower.toe + pinion.lower.heel)
-    distance = distance + 0.5 * (pinion.lower.heel - pinion.lower.toe) * x
-    low = pinion.lower.bounds(distance)[0]
+    distance = 0.5 * (pinion.lowest.toe + pinion.lowest.heel)
+    distance = distance + 0.5 * (pinion.lowest.heel - pinion.lowest.toe) * x
+    low = pinion.lowest.bounds(distance)[0]
     height = low + 0.5 * (1.0 + y) * (pinion.tip - low)
     z, rho = pinion.cone.axial_radial(distance, height)
     angle = pinion.angle(distance, height)

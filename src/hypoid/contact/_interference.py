@@ -71,7 +71,7 @@ def _deepest(contact: UnloadedContact, tip_of: str, turn: Array, columns: int) -
     distance, height = mate.cone.cone_distance_height(z, rho)
     near = (distance >= mate.toe) & (distance <= mate.heel)
     # the cut can only lie below the fillet limit, and shows a little above it at most
-    limit = np.asarray(angle_field(mate).lower.bounds(distance)[0])
+    limit = np.asarray(angle_field(mate).lowest.bounds(distance)[0])
     near &= (height >= mate.root) & (height <= limit + REACH)
     index = np.flatnonzero(near & np.isfinite(z))
     s, h = distance[index], height[index]
