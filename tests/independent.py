@@ -32,22 +32,49 @@ def carried(
         c, s = m.cos(angle), m.sin(angle)
         return c * a - s * b, s * a + c * b
 
+    if not settings.generated:
+        phi = 0 * phi
+
+    def moved(name: str) -> Any:
+        powers = enumerate(getattr(settings.motions, name), start=1)
+        return getattr(settings, name) + sum(c * phi**n for n, c in powers)
+
     x, y, z = point
     x, y = turn(-theta, x, y)  # head
-    z, x = turn(settings.tilt_angle, z, x)
-    x, y = turn(settings.swivel_angle, x, y)
-    x, y = turn(m.pi / 2 - settings.cradle_angle, x, y - settings.radial_distance)
+    z = z + settings.cutter_lead * theta
+    z, x = turn(moved("tilt_angle"), z, x)
+    x, y = turn(moved("swivel_angle"), x, y)
+    x, y = turn(m.pi / 2 - settings.cradle_angle, x, y - moved("radial_distance"))
     x, y = turn(phi, x, y)  # cradle
-    y = y + settings.blank_offset
-    z = z - (settings.sliding_base + settings.helical_motion * phi)
-    z, x = turn(-(m.pi / 2 - settings.machine_root_angle), z, x)
-    z = z - settings.machine_center_to_back
-    roll = phi
-    for order, coefficient in enumerate(settings.modified_roll, start=2):
-        roll = roll + coefficient * phi**order
-    work = settings.roll_to_blade_ratio * theta + settings.ratio_of_roll * roll
+    y = y + moved("blank_offset")
+    z = z - (moved("sliding_base") + settings.helical_motion * phi)
+    z, x = turn(-(m.pi / 2 - moved("machine_root_angle")), z, x)
+    z = z - moved("machine_center_to_back")
+    work = settings.roll_to_blade_ratio * theta + work_roll(settings, phi, m)
     x, y = turn(-work, x, y)
     return x, y, z
+
+
+def work_roll(settings: MachineSettings, phi: Any, m: ModuleType = np) -> Any:
+    """Turn of the work with the cradle: a polynomial, or the cam of the 1996 paper by a plain search."""
+    cam = settings.cam
+    if cam is None:
+        roll = phi
+        for order, coefficient in enumerate(settings.modified_roll, start=2):
+            roll = roll + coefficient * phi**order
+        return settings.ratio_of_roll * roll
+    c, r, delta, guide = cam.swivel_offset, cam.pitch_radius, cam.setting, cam.guide_angle
+
+    def cradle(alpha: Any) -> Any:  # (24)
+        return guide + mpmath.asin(
+            delta / c * mpmath.sin(c * alpha / r) + mpmath.sin(alpha) - mpmath.sin(guide)
+        )
+
+    def one(angle: Any) -> Any:  # (25), from the centre of roll
+        alpha = mpmath.findroot(lambda a: cradle(a) - angle, angle)
+        return cam.index_ratio * (c * alpha / r + angle)
+
+    return one(phi) if m is mpmath else np.vectorize(lambda p: float(one(p)))(phi)
 
 
 # --- the envelope in 40 digits ---------------------------------------------------------------

@@ -1,7 +1,6 @@
 """The commands: what goes to which stream, the names that scripts rely on, the exit status."""
 
 import json
-import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -143,7 +142,7 @@ def test_help_names_every_command(hypoid: Any) -> None:
 
 def test_interrupt_is_status_130(hypoid: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     def interrupted(_: object) -> None:
-        signal.raise_signal(signal.SIGINT)
+        raise KeyboardInterrupt
 
     monkeypatch.setattr("hypoid.io.read_spec", interrupted)
     status, out, err = hypoid("blank", EXAMPLE)

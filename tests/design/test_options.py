@@ -58,7 +58,7 @@ def test_settings_of_the_file_replace_those_of_one_flank(table_1_spec: ExactFace
     expected = replace(before, radial_distance=110.0, modified_roll=(0.01,))
     assert changed.machine_center_to_back == pytest.approx(before.machine_center_to_back, abs=1e-13)
     assert replace(changed, machine_center_to_back=before.machine_center_to_back) == expected
-    assert not pair.pinion.convex.settings.constant_motion
+    assert not pair.pinion.convex.settings.plain_roll
     for name in ("pinion concave", "wheel concave", "wheel convex"):
         same = [next(f for f in p.flanks() if f.name == name).settings for p in (plain, pair)]
         assert same[0] == same[1]

@@ -43,7 +43,7 @@ def test_the_flank_is_the_boundary_of_what_is_cut(
     member: Member = getattr(relief_pair if relief else paper_pair, name)
     flank = member.flank(side)
     sweep = sweep_of(member, flank)
-    heights = np.linspace(flank.root + 0.02, flank.tip, 7)
+    heights = np.linspace(flank.root.at(0.0) + 0.02, flank.tip.at(0.0), 7)
     for distance in (flank.toe, member.blank.mean_cone_distance, flank.heel):
         cut = sweep.boundary(distance, heights, side)
         angle, lever = flank_angle(flank, np.full(7, distance), heights)
@@ -54,7 +54,7 @@ def test_the_flank_is_the_boundary_of_what_is_cut(
 def inside_the_blank(flank: Flank, place: tuple[Array, Array, Array]) -> tuple[Array, ...]:
     distance, height, angle = place
     inside = (distance > flank.toe) & (distance < flank.heel)
-    inside &= (height > flank.root) & (height < flank.tip)
+    inside &= (height > flank.root.at(0.0)) & (height < flank.tip.at(0.0))
     return distance[inside], height[inside], angle[inside]
 
 

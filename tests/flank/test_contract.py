@@ -66,10 +66,10 @@ def test_every_point_meshes(flank: Flank, forty_digits: None) -> None:
 
 
 def test_at_returns_the_place_that_was_asked(flank: Flank) -> None:
-    distance, height = (g.ravel() for g in np.meshgrid(*flank.grid(13, 9)))
+    distance, height = (g.ravel() for g in flank.grid(13, 9))
     z, rho = flank.cone.axial_radial(distance, height)
     points = flank.at(z, rho)
-    if flank.settings.constant_motion and flank.settings.tilt_angle == 0.0:
+    if flank.settings.plain_roll and flank.settings.tilt_angle == 0.0:
         assert points.ok.all()  # exactly as designed
     assert points.ok.mean() > 0.85
     points, z, rho, height = (
@@ -105,7 +105,7 @@ def test_one_tooth_lies_between_its_flanks(variant: Callable[[str], GearPair], k
     pair = variant(kind)
     for member in (pair.pinion, pair.wheel):
         flank = member.concave
-        distance, height = (g.ravel() for g in np.meshgrid(*flank.grid(9, 7)))
+        distance, height = (g.ravel() for g in flank.grid(9, 7))
         angle = []
         for side in (member.concave, member.convex):
             points = side.at_cone(distance, height)
@@ -133,7 +133,7 @@ def test_tooth_thickness_at_the_pitch_point(paper_pair: GearPair) -> None:
 @pytest.mark.parametrize("name", NAMES)
 def test_other_hand_is_the_mirror_image(flank_of: Callable[[str, str], Flank], name: str) -> None:
     left, right = flank_of("plain", name), flank_of("right-hand", name)
-    distance, height = (g.ravel() for g in np.meshgrid(*left.grid(9, 7)))
+    distance, height = (g.ravel() for g in left.grid(9, 7))
     a, b = left.at_cone(distance, height), right.at_cone(distance, height)
     mirror = np.array([1.0, -1.0, 1.0])
     assert b.position == pytest.approx(a.position * mirror, abs=1e-12, rel=0)
@@ -155,10 +155,10 @@ def test_a_pair_k_times_as_large_has_flanks_k_times_as_large(
     scaled = {name: k * getattr(spec, name) for name in lengths}
     one, many = build(spec), build(replace(spec, tip_relief=larger, **scaled))
     for a, b in zip(one.flanks(), many.flanks(), strict=True):
-        distance, height = (g.ravel() for g in np.meshgrid(*a.grid(7, 7)))
+        distance, height = (g.ravel() for g in a.grid(7, 7))
         middle = 0.5 * (a.toe + a.heel)  # ends apart: face widths are rounded
         distance = middle + 0.9 * (distance - middle)
-        height = np.maximum(height, a.root + 0.01)
+        height = np.maximum(height, a.root.at(0.0) + 0.01)
         p, q = a.at_cone(distance, height), b.at_cone(k * distance, k * height)
         assert q.ok.all()
         assert q.position == pytest.approx(k * p.position, abs=2e-8, rel=0)

@@ -23,8 +23,10 @@ def test_against_forty_digit_differences_of_normals(
     flank_of: Callable[[str, str], Flank], forty_digits: None, kind: str, name: str
 ) -> None:
     flank = flank_of(kind, name)
-    middle, tip = 0.5 * (flank.toe + flank.heel), flank.tip
-    points = flank.at_cone([middle, middle + 9.0, middle], [0.2, 0.8 * tip, flank.root + 0.2])
+    middle, tip = 0.5 * (flank.toe + flank.heel), flank.tip.at(0.0)
+    points = flank.at_cone(
+        [middle, middle + 9.0, middle], [0.2, 0.8 * tip, flank.root.at(0.0) + 0.2]
+    )
     assert points.ok[:2].all()  # the third place may lie below a tilted head's root
     for i in np.flatnonzero(points.ok):
         exact = Envelope(flank.settings, flank.pieces[("flank", "fillet")[points.piece[i]]], 1e-15)

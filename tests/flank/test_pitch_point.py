@@ -68,6 +68,7 @@ def test_the_slope_angle_with_the_wrong_sign_would_show(
         heel=flank.heel,
         tip=flank.tip,
         root=flank.root,
+        way=flank.surface.way,
     )
     _, normal, up, _ = pitch_frame(member, turned)
     assert degrees(np.arcsin(normal @ up)) == pytest.approx(19.830, abs=5e-4)

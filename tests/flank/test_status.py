@@ -18,7 +18,7 @@ def test_points_off_the_blank(paper_pair: GearPair) -> None:
     for flank in paper_pair.flanks():
         middle = 0.5 * (flank.toe + flank.heel)
         distance = [flank.toe - 0.01, flank.heel + 0.01, middle, middle, middle]
-        height = [0.0, 0.0, flank.tip + 0.01, flank.root - 0.01, 0.0]
+        height = [0.0, 0.0, flank.tip.at(0.0) + 0.01, flank.root.at(0.0) - 0.01, 0.0]
         status = flank.at_cone(distance, height).status
         assert status.tolist() == 4 * [PointStatus.OUTSIDE_BLANK] + [PointStatus.OK]
 
@@ -79,7 +79,7 @@ def test_undercut_is_found_and_no_point_pretends(
         assert not flank.generated
         for share in (0.0, 0.5):
             distance = flank.toe + share * (flank.heel - flank.toe)
-            height = np.linspace(flank.root + 0.03, flank.tip, 10)
+            height = np.linspace(flank.root.at(0.0) + 0.03, flank.tip.at(0.0), 10)
             points = flank.at_cone(np.full(10, distance), height)
             assert np.isnan(points.position[~points.ok]).all()
             cut = sweep_of(member, flank).boundary(distance, height, flank.side)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from functools import cache
 from typing import Any
 
@@ -14,26 +15,42 @@ from independent import Envelope, carried
 from hypoid.cutter import EdgePiece, edge_point
 from hypoid.geometry import turn_z
 from hypoid.machine import (
+    Cam,
     MachineSettings,
     Meshing,
+    Motions,
     chain,
     generator,
     mesh_closed,
     meshing_function,
     place,
+    place_plain,
     sweep,
+    to_cradle,
 )
 
 Array = np.ndarray[Any, Any]
 
 
+def random_cam(rng: np.random.Generator) -> Cam:
+    return Cam(381.0, rng.uniform(50, 80), rng.uniform(-5, 5), rng.uniform(-0.1, 0.1), 0.37)
+
+
 def random_settings(rng: np.random.Generator, plain: bool = False) -> MachineSettings:
-    """Any machine: tilt, swivel and, unless plain, helical motion and modified roll."""
+    """Any machine: tilt, swivel and, unless plain, every motion there is."""
     moving: dict[str, Any] = {}
     if not plain:
         moving = {
             "helical_motion": rng.uniform(-5, 5),
             "modified_roll": tuple(rng.uniform(-0.1, 0.1, rng.integers(0, 6))),
+            "motions": Motions(
+                **{
+                    f.name: tuple(rng.uniform(-0.3, 0.3, rng.integers(0, 7)))
+                    for f in fields(Motions)
+                }
+            ),
+            "cutter_lead": rng.uniform(-2, 2),
+            "cam": random_cam(rng) if rng.uniform() < 0.5 else None,
         }
     return MachineSettings(
         radial_distance=rng.uniform(50, 200),
@@ -72,9 +89,10 @@ def kinematics(plain: bool) -> Any:
     def run(gen: Any, piece: EdgePiece, s: Any, theta: Any, phi: Any) -> Any:
         edge = sweep(gen, piece, s, theta)
         mesh = Meshing(jax.numpy.cos(phi), jax.numpy.sin(phi), 1.0 + 0.0 * phi, 1.0 + 0.0 * phi)
-        at = place(gen, edge, theta, mesh, plain)
+        on_cradle = to_cradle(gen, edge)
+        at = place_plain(gen, on_cradle, theta, mesh) if plain else place(gen, edge, theta, phi)
         point = turn_z(jax.numpy.cos(at.turn), -jax.numpy.sin(at.turn), at.point)
-        roots = [mesh_closed(gen, edge, branch) for branch in (1.0, -1.0)]
+        roots = [mesh_closed(gen, on_cradle, branch) for branch in (1.0, -1.0)]
         closed = [(r.cosine, r.sine, r.slope, r.discriminant) for r in roots]
         return point, meshing_function(gen, edge, phi)[0], closed
 

@@ -44,15 +44,13 @@ def flank(
     output
         The file to write; standard output without it.
     """
-    import numpy as np
-
     import hypoid
     from hypoid.flank import PointStatus
     from hypoid.io import FlankGrid, grid_csv, grid_json, write_text
 
     pair = hypoid.read(file)
     wanted = (pair.pinion if member == "pinion" else pair.wheel).flank(side)
-    distance, height = (a.ravel() for a in np.meshgrid(*wanted.grid(rows, columns)))
+    distance, height = (a.ravel() for a in wanted.grid(rows, columns))
     points = wanted.at_cone(distance, height)
     states = [PointStatus(int(code)) for code in points.status]
     grid = FlankGrid(

@@ -15,7 +15,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from hypoid.flank import Chart, Flank, PitchCone, chart
+from hypoid.flank import Border, Chart, Flank, PitchCone, chart
 from hypoid.geometry import Batch, Vector, compiled_fused, horner
 
 from ._mounting import Mounting, to_wheel
@@ -28,7 +28,7 @@ class AngleField:
 
     parts: tuple[Chart, ...]  # from the fillet limit up: two where a relief begins, else one
     cone: PitchCone
-    tip: float  # mm, the tooth's addendum
+    tip: Border  # the face cone
 
     def angle(self, distance: Batch, height: Batch) -> Batch:
         """Angle about the member's axis, rad, at cone distance S and height H."""
@@ -46,7 +46,7 @@ class AngleField:
         """Whether (S, H) lies on the active flank."""
         slack = 1e-9
         inside = (distance >= self.lowest.toe - slack) & (distance <= self.lowest.heel + slack)
-        inside &= height <= self.tip + slack
+        inside &= height <= self.tip.at(distance) + slack
         return inside & (height >= self.lowest.bounds(distance)[0] - slack)
 
 
@@ -85,7 +85,7 @@ def flank_nodes(flank: Flank, columns: int, rows: int) -> FlankNodes:
     distance = np.linspace(flank.toe, flank.heel, columns)
     share = np.linspace(0.0, 1.0, rows)
     low = np.asarray(angle_field(flank).lowest.bounds(distance)[0])
-    height = low + np.outer(share, flank.tip - low)
+    height = low + np.outer(share, flank.tip.at(distance) - low)
     s, theta, _ = flank.parameters(np.broadcast_to(distance, height.shape).ravel(), height.ravel())
     position, normal = flank.at_cutter(s, theta)
     hand = np.array([1.0, -1.0 if flank.mirrored else 1.0, 1.0])
@@ -123,7 +123,7 @@ def lead_on_flank(
     distance = 0.5 * (pinion.lowest.toe + pinion.lowest.heel)
     distance = distance + 0.5 * (pinion.lowest.heel - pinion.lowest.toe) * x
     low = pinion.lowest.bounds(distance)[0]
-    height = low + 0.5 * (1.0 + y) * (pinion.tip - low)
+    height = low + 0.5 * (1.0 + y) * (pinion.tip.at(distance) - low)
     z, rho = pinion.cone.axial_radial(distance, height)
     angle = pinion.angle(distance, height)
     return lead(mount, wheel, phi, (rho * jnp.cos(angle), rho * jnp.sin(angle), z))

@@ -53,7 +53,8 @@ def tip_interference(contact: UnloadedContact, columns: int = 61) -> tuple[TipIn
 def _deepest(contact: UnloadedContact, tip_of: str, turn: Array, columns: int) -> TipInterference:
     pinion, wheel = contact.pinion_flank, contact.wheel_flank
     own, mate = (pinion, wheel) if tip_of == "pinion" else (wheel, pinion)
-    s, theta, _ = own.parameters(np.linspace(own.toe, own.heel, columns), np.full(columns, own.tip))
+    face = np.linspace(own.toe, own.heel, columns)
+    s, theta, _ = own.parameters(face, own.tip.at(face))
     edge, _ = own.at_cutter(s, theta)
     m = len(contact.phi)
     tip = np.tile(edge, (m, 1))
@@ -72,7 +73,7 @@ def _deepest(contact: UnloadedContact, tip_of: str, turn: Array, columns: int) -
     near = (distance >= mate.toe) & (distance <= mate.heel)
     # the cut can only lie below the fillet limit, and shows a little above it at most
     limit = np.asarray(angle_field(mate).lowest.bounds(distance)[0])
-    near &= (height >= mate.root) & (height <= limit + REACH)
+    near &= (height >= mate.root.at(distance)) & (height <= limit + REACH)
     index = np.flatnonzero(near & np.isfinite(z))
     s, h = distance[index], height[index]
     angle = mate.chart_angle(s, h)

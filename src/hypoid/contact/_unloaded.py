@@ -228,7 +228,7 @@ class UnloadedContact:
             rho = np.hypot(position[:, 0], position[:, 1])
             distance, height = flank.cone.cone_distance_height(position[:, 2], rho)
             columns += [
-                flank.tip - height,
+                flank.tip.at(distance) - height,
                 distance - flank.toe,
                 flank.heel - distance,
                 s[index] - float(flank.pieces["flank"].low),
@@ -307,5 +307,7 @@ def _within(pinion: Flank, wheel: Flank, points: ContactPoints) -> np.ndarray:
         rho = np.hypot(position[:, 0], position[:, 1])
         distance, height = flank.cone.cone_distance_height(position[:, 2], rho)
         inside &= (distance >= flank.toe - slack) & (distance <= flank.heel + slack)
-        inside &= (height <= flank.tip + slack) & (s >= float(flank.pieces["flank"].low) - slack)
+        piece = flank.pieces["flank"]
+        inside &= height <= flank.tip.at(distance) + slack
+        inside &= (s >= float(piece.low) - slack) & (s <= float(piece.high) + slack)
     return inside

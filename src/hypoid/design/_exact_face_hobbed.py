@@ -13,7 +13,7 @@ from typing import Any
 
 from hypoid.blank import MemberBlank, PairBlank
 from hypoid.cutter import Blade, BladeRelief, FaceHobHead
-from hypoid.flank import Flank, PitchCone, Side, cut_flank
+from hypoid.flank import Border, Flank, PitchCone, Side, best_way, cut_flank
 from hypoid.geometry import DesignError, Problem
 from hypoid.machine import MachineSettings, SummarySheet, from_sheet, to_sheet
 from hypoid.pair import Assumption, GearPair, Member
@@ -138,18 +138,20 @@ def _member(
     def flank(side: Side) -> Flank:
         outer = side == "concave"
         pieces = head.pieces("outer" if outer else "inner")
+        settings = _changed(spec, member.name, side, exact, apex)
         return cut_flank(
             member.name,
             side,
-            _changed(spec, member.name, side, exact, apex),
+            settings,
             {name: piece.turned(phase) for name, piece in pieces.items()},
             cone,
             mirrored=member.hand == "right",
             theta_start=0.0 if outer else -math.pi / head.blade_groups,
             toe=member.mean_cone_distance - member.inner_face_width,
             heel=member.mean_cone_distance + member.outer_face_width,
-            tip=member.mean_addendum,
-            root=-member.mean_dedendum,
+            tip=Border(member.mean_addendum, 0.0),
+            root=Border(-member.mean_dedendum, 0.0),
+            way=best_way(settings, revolution=False),
         )
 
     return Member(member, head, flank("concave"), flank("convex"))

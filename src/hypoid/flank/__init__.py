@@ -1,16 +1,17 @@
 """Flanks: the envelope of a swept edge, its pieces, and points of it on demand."""
 
+from ._chart import Border as Border
 from ._chart import Chart as Chart
 from ._chart import PitchCone as PitchCone
 from ._chart import chart as chart
+from ._cut import best_way as best_way
+from ._cut import cut_flank as cut_flank
 from ._envelope import Surface as Surface
 from ._envelope import axial_radial_angle as axial_radial_angle
 from ._envelope import placed as placed
 from ._envelope import position_and_normal as position_and_normal
 from ._envelope import solve_pair as solve_pair
-from ._flank import CUT_PIECES as CUT_PIECES
 from ._flank import Flank as Flank
 from ._flank import FlankPoints as FlankPoints
 from ._flank import Side as Side
-from ._flank import cut_flank as cut_flank
 from ._status import PointStatus as PointStatus

@@ -56,6 +56,19 @@ class PitchCone:
 
 @jax.tree_util.register_dataclass
 @dataclass(frozen=True)
+class Border:
+    """Line of the face or root cone: height above the pitch cone (mm) against cone distance."""
+
+    height: Scalar  # at S = 0, mm
+    slope: Scalar
+
+    def at(self, distance: Batch) -> Batch:
+        """H, mm, at cone distances S."""
+        return self.height + self.slope * distance
+
+
+@jax.tree_util.register_dataclass
+@dataclass(frozen=True)
 class Chart:
     """Polynomials of one piece: its edge lines and, over its rectangle, angle, s and theta."""
 

@@ -1,4 +1,8 @@
-"""The envelope of a swept edge piece in the member's frame, and its Newton solves (left hand)."""
+"""The envelope of a swept edge piece in the member's frame, and its Newton solves (left hand).
+
+Its parameters are the edge parameter s and a turn: the cutter's theta, or the cradle's angle where
+the meshing condition is closed in theta (``machine.Way``). The code calls either one theta.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +15,7 @@ import jax.numpy as jnp
 
 from hypoid.cutter import EdgePiece
 from hypoid.geometry import Batch, Scalar, Vector, once, scale, turn_z, unit
-from hypoid.machine import Generator, Placed, place, solve_meshing, sweep
+from hypoid.machine import Generator, Placed, Way, meshed
 
 
 @jax.tree_util.register_dataclass
@@ -20,17 +24,14 @@ class Surface:
     """A generated surface up to the edge piece that makes it: generator and which root is meant."""
 
     generator: Generator
-    branch: Scalar  # sign of dF/dphi on the tooth
+    branch: Scalar  # sign of the meshing condition's slope on the tooth
     outward: Scalar  # sign that turns the generator's normal out of the tooth
-    plain: bool = field(metadata={"static": True})  # closed meshing condition?
+    way: Way = field(metadata={"static": True})  # how the meshing condition is met
 
 
 def placed(surface: Surface, piece: EdgePiece, s: Batch, theta: Batch) -> tuple[Placed, Batch]:
     """Meshed points before the work's turn, and the discriminant of the meshing condition."""
-    gen = surface.generator
-    edge = sweep(gen, piece, s, theta)
-    mesh = solve_meshing(gen, edge, surface.branch, surface.plain)
-    return place(gen, edge, theta, mesh, surface.plain), mesh.discriminant
+    return meshed(surface.generator, piece, s, theta, surface.branch, surface.way)
 
 
 def position_and_normal(

@@ -12,16 +12,15 @@ from jaxtyping import Float, Int
 
 from hypoid.cutter import EdgePiece
 from hypoid.geometry import horner
-from hypoid.machine import MachineSettings, generator
+from hypoid.machine import MachineSettings
 
-from ._chart import Chart, PitchCone, chart, height_at
+from ._chart import Border, Chart, PitchCone, chart, height_at
 from ._envelope import Surface
-from ._locate import curvatures, from_cutter, locate, locate_slowly, roots_near
+from ._locate import curvatures, from_cutter, locate, locate_slowly
 from ._status import PointStatus
 
 Array = np.ndarray[Any, Any]
 Side = Literal["concave", "convex"]
-CUT_PIECES = ("flank", "fillet")  # pieces that have an angle over (z, rho), in order of asking
 TOLERANCE = 1e-9  # mm, what Newton may leave
 RUNOUT, RUNOUT_TOLERANCE = (
     2e-2,
@@ -37,9 +36,9 @@ class FlankPoints:
     position: Float[Array, "n 3"]  # mm; NaN where the status is not OK or OUTSIDE_BLANK
     normal: Float[Array, "n 3"]  # unit, out of the tooth
     status: Int[Array, " n"]
-    piece: Int[Array, " n"]  # index into CUT_PIECES: 0 flank, 1 fillet
+    piece: Int[Array, " n"]  # index into Flank.cut_pieces
     s: Float[Array, " n"]  # edge parameter, mm
-    theta: Float[Array, " n"]  # cutter turn, rad
+    theta: Float[Array, " n"]  # the surface's turn, rad (see Surface)
     flank: Flank
 
     @property
@@ -49,7 +48,7 @@ class FlankPoints:
     @cached_property
     def _curvature(self) -> Array:
         values = np.full((8, len(self.s)), np.nan)
-        for index, name in enumerate(CUT_PIECES):
+        for index, name in enumerate(self.flank.cut_pieces):
             mine = (self.piece == index) & np.isfinite(self.s)
             if mine.any():
                 piece = self.flank.pieces[name]
@@ -75,8 +74,8 @@ class FlankPoints:
 class Flank:
     """One flank of a member, from its cutting edge and machine settings.
 
-    Built by ``cut_flank``. ``toe``, ``heel``, ``tip`` and ``root`` bound it in cone distance and
-    height above the pitch cone (mm).
+    Built by ``cut_flank``. ``toe`` and ``heel`` bound it in cone distance (mm), ``tip`` and
+    ``root`` in height above the pitch cone. ``pieces`` run from the blade's tip to its shank.
     """
 
     member: str
@@ -86,11 +85,16 @@ class Flank:
     surface: Surface
     cone: PitchCone
     mirrored: bool  # a right-hand member
-    theta_start: float  # cutter turn that puts the pitch point in place, rad
+    theta_start: float  # turn that puts the mean point in place, rad
     toe: float
     heel: float
-    tip: float
-    root: float
+    tip: Border
+    root: Border
+
+    @cached_property
+    def cut_pieces(self) -> tuple[str, ...]:
+        """Pieces that have an angle over (z, rho), from the tooth's tip to its root."""
+        return tuple(name for name in reversed(list(self.pieces)) if name != "land")
 
     @cached_property
     def charts(self) -> Mapping[str, Chart]:
@@ -105,7 +109,7 @@ class Flank:
                 self.theta_start,
                 rooted=name == "fillet",
             )
-            for name in CUT_PIECES
+            for name in self.cut_pieces
         }
 
     @property
@@ -134,7 +138,7 @@ class Flank:
         def ask(index: int, places: Array) -> None:
             if not len(places):
                 return
-            got, state = self._on_piece(CUT_PIECES[index], z[places], rho[places])
+            got, state = self._on_piece(self.cut_pieces[index], z[places], rho[places])
             before = status[places]
             take = (state == PointStatus.SINGULAR) & (before == PointStatus.NOT_CONVERGED)
             take |= (state == PointStatus.OK) & (before != PointStatus.OK)
@@ -144,17 +148,19 @@ class Flank:
                 places, got, state = places[take], got[:, take], state[take]
             values[:, places], status[places], piece[places] = got[:8], state, index
 
-        if (
-            self.generated
-        ):  # flank above, fillet below their common edge; at the edge, the other one
-            above = height >= self.charts["flank"].bounds(distance)[0]
-            ask(0, np.flatnonzero(asked & above))
-            ask(1, np.flatnonzero(asked & ~above))
+        count = len(self.cut_pieces)
+        if self.generated:  # each piece above its lower edge; next to that edge, its neighbour
+            owner = np.full(len(z), count - 1)
+            for index in range(count - 2, -1, -1):
+                low = self.charts[self.cut_pieces[index]].bounds(distance)[0]
+                owner[height >= low] = index
+            for index in range(count):
+                ask(index, np.flatnonzero(asked & (owner == index)))
             missed = asked & (status != PointStatus.OK)
-            ask(1, np.flatnonzero(missed & above))
-            ask(0, np.flatnonzero(missed & ~above))
+            for index in range(count):
+                ask(index, np.flatnonzero(missed & (np.abs(owner - index) == 1)))
         else:
-            for index in range(len(CUT_PIECES)):
+            for index in range(count):
                 ask(index, np.flatnonzero(asked))
         failed = np.flatnonzero(status >= PointStatus.SINGULAR)
         values[:, failed] = np.nan
@@ -163,7 +169,7 @@ class Flank:
         return FlankPoints(position, normal, status, piece, values[6], values[7], self)
 
     def at_cutter(self, s: Any, theta: Any, piece: str = "flank") -> tuple[Array, Array]:
-        """Points (n, 3) mm and unit normals (n, 3) from edge parameter s (mm) and cutter turn (rad)."""
+        """Points (n, 3) mm and unit normals (n, 3) from edge parameter s (mm) and turn (rad)."""
         return self._handed(from_cutter(self.surface, self.pieces[piece], s, theta))
 
     def _handed(self, values: Array) -> tuple[Array, Array]:
@@ -176,10 +182,11 @@ class Flank:
     def _on_blank(self, distance: Array, height: Array) -> Array:
         slack = 1e-6
         inside = (distance >= self.toe - slack) & (distance <= self.heel + slack)
-        return inside & (height <= self.tip + slack) & (height >= self.root - slack)
+        inside &= height <= self.tip.at(distance) + slack
+        return inside & (height >= self.root.at(distance) - slack)
 
     def parameters(self, distance: Any, height: Any) -> tuple[Array, Array, Array]:
-        """Edge parameter s (mm), cutter turn (rad) and angle about the axis (rad) at (S, H), mm.
+        """Edge parameter s (mm), turn (rad) and angle about the axis (rad) at (S, H), mm.
 
         On the flank piece and its extension only; the angle is that of a left-hand member and
         never wraps. NaN where Newton does not arrive.
@@ -205,14 +212,20 @@ class Flank:
 
         Quick and without compilation; as good as the charts' own ``error``.
         """
-        fillet, flank = self.charts["fillet"], self.charts["flank"]
-        x, y = fillet.coordinates(distance, height)
-        u, v = flank.coordinates(distance, height)
-        return np.where(y <= 1.0, horner(fillet.angle, x, y), horner(flank.angle, u, v))
+        lowest, *above = (self.charts[name] for name in reversed(self.cut_pieces))
+        value = horner(lowest.angle, *lowest.coordinates(distance, height))
+        for part in above:
+            x, y = part.coordinates(distance, height)
+            value = np.where(y >= -1.0, horner(part.angle, x, y), value)
+        return value
 
     def grid(self, rows: int, columns: int) -> tuple[Array, Array]:
-        """Cone distances (columns,) and heights (rows,) that span the blank, toe to heel, root to tip."""
-        return np.linspace(self.toe, self.heel, columns), np.linspace(self.root, self.tip, rows)
+        """Cone distances and heights (rows, columns), mm, over the blank: root to tip, toe to heel."""
+        distance = np.linspace(self.toe, self.heel, columns)
+        share = np.linspace(0.0, 1.0, rows)
+        low, high = self.root.at(distance), self.tip.at(distance)
+        height = low + np.outer(share, high - low)
+        return np.broadcast_to(distance, height.shape), height
 
     def at_cone(self, distance: Any, height: Any) -> FlankPoints:
         """Surface points at cone distance S and height H above the pitch cone (mm)."""
@@ -259,35 +272,3 @@ class Flank:
     def _removes_more(new: Array, old: Array) -> Array:
         """Whether new points lie deeper in the tooth than old ones at the same (z, rho)."""
         return ((new[:3] - old[:3]) * new[3:6]).sum(axis=0) < 0.0
-
-
-def cut_flank(
-    member: str,
-    side: Side,
-    settings: MachineSettings,
-    pieces: Mapping[str, EdgePiece],
-    cone: PitchCone,
-    *,
-    mirrored: bool,
-    theta_start: float,
-    toe: float,
-    heel: float,
-    tip: float,
-    root: float,
-) -> Flank:
-    """The flank that an edge cuts under given settings; of the two meshing roots the nearer to phi = 0."""
-    gen = generator(settings)
-    plain = settings.constant_motion
-    zero, start = np.zeros(1), np.full(1, theta_start)
-    found: list[tuple[float, Surface]] = []
-    for branch in (1.0, -1.0):
-        surface = Surface(gen, branch, 1.0, plain)
-        phi, _, *normal = roots_near(surface, pieces["flank"], zero, start)
-        # A left-hand member turns its concave flanks to -y at the pitch point, convex ones to +y.
-        wanted = -1.0 if side == "concave" else 1.0
-        outward = float(np.sign(normal[1][0]) * wanted)
-        found.append((abs(float(phi[0])), Surface(gen, branch, outward, plain)))
-    surface = min(found, key=lambda item: item[0])[1]
-    return Flank(
-        member, side, settings, pieces, surface, cone, mirrored, theta_start, toe, heel, tip, root
-    )

@@ -70,7 +70,10 @@ def _from_cutter(surface: Surface, piece: EdgePiece, s: Batch, theta: Batch) -> 
 
 def _roots_near(surface: Surface, piece: EdgePiece, s: Batch, theta: Batch) -> tuple[Batch, ...]:
     at, discriminant = placed(surface, piece, s, theta)
-    return at.phi, discriminant, *at.normal
+    x, y, z = at.point
+    rho = jnp.sqrt(x * x + y * y)
+    tangential = (x * at.normal[1] - y * at.normal[0]) / rho
+    return at.phi, discriminant, tangential, z, rho
 
 
 def _curvatures(surface: Surface, piece: EdgePiece, s: Batch, theta: Batch) -> tuple[Batch, ...]:

@@ -1,15 +1,20 @@
 """Kinematics of generation: where an edge point goes, and when it meshes, from screw velocities.
 
 The condition of meshing n . dr/dphi = 0 is written with velocities in the machine frame (design,
-section 5): with every axis at rest but a plain roll it reads A cos(phi) + B sin(phi) + C = 0, since
-then edge and cutter turn sweep one surface fixed to the cradle (the crown gear, notes of 2022).
-Anything else is left to Newton, started from that root.
+section 5). There are four ways to meet it, and a flank takes the best that it has:
+
+* ``cradle``: at fixed (s, theta) it reads A cos(phi) + B sin(phi) + C = 0 for a plain roll, since
+  then edge and cutter turn sweep one surface fixed to the cradle (the crown gear, notes of 2022);
+* ``cutter``: at fixed (s, phi) it is closed in theta for any motions, if the tool is a surface of
+  revolution (face milling; `_revolution.py`);
+* ``newton``: at fixed (s, theta), any cutter and any motions, from the first way's root;
+* ``form``: nothing rolls (Formate, Helixform): the swept surface is the flank.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Literal
 
 import jax
 import jax.numpy as jnp
@@ -17,13 +22,15 @@ import jax.numpy as jnp
 from hypoid.cutter import EdgePiece, edge_point
 from hypoid.geometry import Batch, Vector, add, cross, dot, once, scale, turn_z
 
-from ._settings import Generator
+from ._pose import Generator, Pose, pose, rotated, to_work
+
+Way = Literal["cradle", "cutter", "newton", "form"]
 
 
 @jax.tree_util.register_dataclass
 @dataclass(frozen=True)
 class SweptEdge:
-    """Edge points turned by theta, in the cradle frame (mm), with what meshing needs of them."""
+    """Edge points turned by theta, in one frame (mm), with what meshing needs of them."""
 
     point: Vector
     along: Vector  # dr/ds
@@ -33,24 +40,38 @@ class SweptEdge:
 @jax.tree_util.register_dataclass
 @dataclass(frozen=True)
 class Meshing:
-    """Root of the meshing condition: the cradle angle by cosine and sine, and dF/dphi there."""
+    """Root of the meshing condition: the angle sought by cosine and sine, and dF/d(angle) there."""
 
     cosine: Batch
     sine: Batch
-    slope: Batch  # Q = dF/dphi: its sign is the branch, zero the undercut limit
-    discriminant: Batch  # Q**2 as computed; negative where the edge never meshes
+    slope: Batch  # its sign is the branch, zero the undercut limit
+    discriminant: Batch  # slope**2 as computed; negative where the edge never meshes
+
+
+@jax.tree_util.register_dataclass
+@dataclass(frozen=True)
+class Placed:
+    """Meshed points before the work's own turn: the member's axis is z, left hand, mm."""
+
+    point: Vector
+    normal: Vector  # not unit
+    turn: Batch  # R_b theta + W(phi), by which the member turns back, rad
+    phi: Batch
 
 
 def sweep(gen: Generator, piece: EdgePiece, s: Batch, theta: Batch) -> SweptEdge:
-    """Turn edge points with the cutter by -theta and carry them into the cradle frame."""
+    """Edge points turned with the cutter by -theta, cutter frame (not turning)."""
     point, tangent = edge_point(piece, s)
     cosine, sine = once((jnp.cos(theta), jnp.sin(theta)))
+    x, y, z = turn_z(cosine, -sine, point)
+    along = turn_z(cosine, -sine, tangent)
+    lead = gen.cutter_lead
+    return SweptEdge((x, y, z + lead * theta), along, (y, -x, lead + 0.0 * theta))
 
-    def to_cradle(v: Vector) -> Vector:
-        x, y, z = turn_z(cosine, -sine, v)
-        return tuple(row[0] * x + row[1] * y + row[2] * z for row in gen.head)  # type: ignore[return-value]
 
-    arm, along = once((to_cradle(point), to_cradle(tangent)))
+def to_cradle(gen: Generator, edge: SweptEdge) -> SweptEdge:
+    """The same in the cradle frame, where its axes rest."""
+    arm, along = once((rotated(gen.head, edge.point), rotated(gen.head, edge.along)))
     axis: Vector = (gen.head[0][2], gen.head[1][2], gen.head[2][2])
     return SweptEdge(add(gen.centre, arm), along, cross(arm, axis))
 
@@ -67,14 +88,19 @@ def _crown_normal(gen: Generator, edge: SweptEdge) -> Vector:
 
 
 def mesh_closed(gen: Generator, edge: SweptEdge, branch: Batch | float) -> Meshing:
-    """Cradle angle where an edge point meshes, closed in phi (plain roll) [notes of 2022]."""
+    """Cradle angle where an edge point (cradle frame) meshes, closed for a plain roll [notes of 2022]."""
     n = once(_crown_normal(gen, edge))
     m = cross(edge.point, n)
     ratio, c, s = gen.roll[0], gen.root_cosine, gen.root_sine
-    offset, base = gen.blank_offset, gen.sliding_base
+    offset, base = gen.blank_offset, gen.sliding_base[0]
     a = -ratio * (c * (m[0] + base * n[1]) - s * offset * n[0])
     b = -ratio * (c * (base * n[0] - m[1]) + s * offset * n[1])
     const = m[2] - ratio * (s * m[2] + c * offset * n[2])
+    return solve_trigonometric(a, b, const, branch)
+
+
+def solve_trigonometric(a: Batch, b: Batch, const: Batch, branch: Batch | float) -> Meshing:
+    """The root of a cos(x) + b sin(x) + const = 0 whose slope has the branch's sign."""
     a, b, const = once((a, b, const))
     square = a * a + b * b
     discriminant = square - const * const
@@ -84,29 +110,46 @@ def mesh_closed(gen: Generator, edge: SweptEdge, branch: Batch | float) -> Meshi
     return Meshing(cosine, sine, slope, discriminant)
 
 
-def _roll(gen: Generator, phi: Batch) -> tuple[Batch, Batch]:
-    """Work roll W(phi) and dW/dphi, rad."""
-    value, slope = gen.roll[-1] + 0.0 * phi, 0.0 * phi
-    for k in range(gen.roll.shape[0] - 2, -1, -1):
-        slope = slope * phi + value
-        value = value * phi + gen.roll[k]
-    return value * phi, slope * phi + value
+def velocity(at: Pose, r: Vector, q: Vector, drift: Vector | None = None) -> Vector:
+    """dr/dphi relative to the work of points r (machine frame) that stand at q from the work's axis.
+
+    ``drift`` is their velocity on the cradle, machine frame, where its axes move.
+    """
+    axis: Vector = (at.root_cosine, 0.0, at.root_sine)
+    x, y, z = scale(-at.roll_rate, cross(axis, q))
+    x, y, z = x - r[1], y + r[0], z - at.base_rate
+    if at.rates is None or drift is None:
+        return x, y, z
+    turn, back = at.rates.machine_root_angle, at.rates.machine_center_to_back
+    return (
+        x + drift[0] + turn * q[2] - back * axis[0],
+        y + drift[1] + at.rates.blank_offset,
+        z + drift[2] - turn * q[0] - back * axis[2],
+    )
+
+
+def _carried(
+    gen: Generator, at: Pose, edge: SweptEdge
+) -> tuple[Vector, Vector, Vector, Vector | None]:
+    """Points r and q, the normal (not unit) and the drift of an edge in the machine frame."""
+    arm, along = rotated(at.head, edge.point), at.to_machine(edge.along)
+    on_cradle = add(at.centre, arm)
+    r = turn_z(at.cosine, at.sine, on_cradle)
+    q = (r[0], r[1] + at.blank_offset, r[2] - at.sliding_base)
+    axis: Vector = (at.root_cosine, 0.0, at.root_sine)
+    swing = add(at.to_machine(edge.swing), scale(-gen.blade_ratio, cross(axis, q)))
+    drift = None
+    if at.rates is not None:
+        moved = add(at.rates.centre, cross(at.rates.spin, arm))
+        drift = turn_z(at.cosine, at.sine, moved)
+    return r, q, cross(along, swing), drift
 
 
 def meshing_function(gen: Generator, edge: SweptEdge, phi: Batch) -> tuple[Batch, Vector]:
     """F = n . dr/dphi for any motions, and the normal n (not unit) in the machine frame."""
-    cosine, sine = jnp.cos(phi), jnp.sin(phi)
-    r = turn_z(cosine, sine, edge.point)
-    base = gen.sliding_base + gen.helical_motion * phi
-    arm = (r[0], r[1] + gen.blank_offset, r[2] - base)
-    axis: Vector = (gen.root_cosine, 0.0 * phi, gen.root_sine)
-    work = cross(axis, arm)  # velocity of a point turning with the work, per rad
-    _, ratio = _roll(gen, phi)
-    swing = add(turn_z(cosine, sine, edge.swing), scale(-gen.blade_ratio, work))
-    normal = cross(turn_z(cosine, sine, edge.along), swing)
-    x, y, z = scale(-ratio, work)
-    velocity = (x - r[1], y + r[0], z - gen.helical_motion)
-    return dot(normal, velocity), normal
+    at = pose(gen, phi)
+    r, q, normal, drift = _carried(gen, at, edge)
+    return dot(normal, velocity(at, r, q, drift)), normal
 
 
 def mesh_newton(gen: Generator, edge: SweptEdge, branch: Batch | float, steps: int = 8) -> Meshing:
@@ -114,7 +157,7 @@ def mesh_newton(gen: Generator, edge: SweptEdge, branch: Batch | float, steps: i
 
     The last step is taken outside the loop with its slope held: it carries the derivatives.
     """
-    start = mesh_closed(gen, edge, branch)
+    start = mesh_closed(gen, to_cradle(gen, edge), branch)
 
     def slope_at(phi: Batch) -> tuple[Batch, Batch]:
         def f(angle: Batch) -> Batch:
@@ -135,41 +178,25 @@ def mesh_newton(gen: Generator, edge: SweptEdge, branch: Batch | float, steps: i
     return Meshing(jnp.cos(phi), jnp.sin(phi), slope, discriminant)
 
 
-@jax.tree_util.register_dataclass
-@dataclass(frozen=True)
-class Placed:
-    """Meshed points before the work's own turn: the member's axis is z, left hand, mm."""
-
-    point: Vector
-    normal: Vector  # not unit
-    turn: Batch  # R_b theta + W(phi), by which the member turns back, rad
-    phi: Batch
-
-
-def place(gen: Generator, edge: SweptEdge, theta: Batch, mesh: Meshing, plain: bool) -> Placed:
-    """Carry meshed points and their normals into the member's frame, up to its own turn."""
-    phi = jnp.arctan2(mesh.sine, mesh.cosine)
-    r = turn_z(mesh.cosine, mesh.sine, edge.point)
-    if plain:
-        roll, base = gen.roll[0] * phi, gen.sliding_base
-        normal = turn_z(mesh.cosine, mesh.sine, _crown_normal(gen, edge))
-    else:
-        roll, base = _roll(gen, phi)[0], gen.sliding_base + gen.helical_motion * phi
-        normal = meshing_function(gen, edge, phi)[1]
-
-    def to_work(v: Vector) -> Vector:
-        return (
-            gen.root_sine * v[0] - gen.root_cosine * v[2],
-            v[1],
-            gen.root_cosine * v[0] + gen.root_sine * v[2],
-        )
-
-    x, y, z = to_work((r[0], r[1] + gen.blank_offset, r[2] - base))
-    point = (x, y, z - gen.machine_center_to_back)
-    point, normal, turn = once((point, to_work(normal), gen.blade_ratio * theta + roll))
+def to_member(at: Generator | Pose, q: Vector, normal: Vector, turn: Batch, phi: Batch) -> Placed:
+    """Points q and normals of the machine frame in the member's frame, up to its own turn."""
+    x, y, z = to_work(at.root_sine, at.root_cosine, q)
+    normal = to_work(at.root_sine, at.root_cosine, normal)
+    point, normal, turn = once(((x, y, z - at.machine_center_to_back), normal, turn))
     return Placed(point, normal, turn, phi)
 
 
-def solve_meshing(gen: Generator, edge: SweptEdge, branch: Any, plain: bool) -> Meshing:
-    """The meshing root by the best way there is: closed for a plain roll, else Newton."""
-    return mesh_closed(gen, edge, branch) if plain else mesh_newton(gen, edge, branch)
+def place_plain(gen: Generator, edge: SweptEdge, theta: Batch, mesh: Meshing) -> Placed:
+    """Meshed points (edge in the cradle frame) under a plain roll."""
+    phi = jnp.arctan2(mesh.sine, mesh.cosine)
+    r = turn_z(mesh.cosine, mesh.sine, edge.point)
+    q = (r[0], r[1] + gen.blank_offset, r[2] - gen.sliding_base[0])
+    normal = turn_z(mesh.cosine, mesh.sine, _crown_normal(gen, edge))
+    return to_member(gen, q, normal, gen.blade_ratio * theta + gen.roll[0] * phi, phi)
+
+
+def place(gen: Generator, edge: SweptEdge, theta: Batch, phi: Batch) -> Placed:
+    """Edge points (cutter frame) at cradle angles, any motions."""
+    at = pose(gen, phi)
+    _, q, normal, _ = _carried(gen, at, edge)
+    return to_member(at, q, normal, gen.blade_ratio * theta + at.roll, phi)

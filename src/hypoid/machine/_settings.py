@@ -1,4 +1,4 @@
-"""Basic machine settings of one flank, and the generator they define.
+"""Basic machine settings of one flank, how they move, and the generator chain, motion by motion.
 
 The chain is that of the 2005 paper as corrected (errata 1-3 of its notes), for a left-hand member:
 head -theta, tilt i about y, swivel j, cutter centre at (S_r cos q, -S_r sin q), cradle +phi, blank
@@ -9,31 +9,49 @@ R_b theta + W(phi). A right-hand member is the mirror image (y -> -y) with the s
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
-import jax
-import jax.numpy as jnp
 import numpy as np
 
-from hypoid.geometry import Batch, Scalar, Vector
+from ._cam import Cam, cam_roll
 
-ROLL_ORDERS = 5  # modified roll: orders 2 to 6
+ORDERS = 6  # of the cradle angle, in every motion
+
+
+@dataclass(frozen=True)
+class Motions:
+    """How settings move with the cradle angle phi: coefficients of phi, phi**2, ... phi**6.
+
+    Each is what is added to the setting of that name, in mm/rad**n or rad/rad**n.
+    """
+
+    radial_distance: Sequence[float] = ()
+    tilt_angle: Sequence[float] = ()
+    swivel_angle: Sequence[float] = ()
+    blank_offset: Sequence[float] = ()  # vertical motion
+    machine_root_angle: Sequence[float] = ()
+    machine_center_to_back: Sequence[float] = ()  # horizontal motion
+    sliding_base: Sequence[float] = ()  # helical motion, beside `helical_motion`
+
+    def moved(self) -> tuple[str, ...]:
+        """The settings that move."""
+        return tuple(f.name for f in fields(self) if any(getattr(self, f.name)))
 
 
 @dataclass(frozen=True)
 class MachineSettings:
     """Basic settings of one flank; mm and rad, signs of the generator chain.
 
-    The work turns by W(phi) = R_a (phi + c2 phi**2 + ... + c6 phi**6) with the cradle angle phi and
-    the sliding base moves by h phi; ``modified_roll`` holds c2, c3, ... as far as they are wanted.
-    ``machine_center_to_back`` counts from the crossing point.
+    The work turns by W(phi) = R_a (phi + c2 phi**2 + ... + c6 phi**6) with the cradle angle phi, or
+    as a cam turns it, and the sliding base moves by h phi; ``modified_roll`` holds c2, c3, ... as
+    far as they are wanted. ``machine_center_to_back`` counts from the crossing point.
     """
 
     radial_distance: float  # S_r
     cradle_angle: float  # q
     machine_root_angle: float  # gamma_m
     ratio_of_roll: float  # R_a
-    roll_to_blade_ratio: float  # R_b
+    roll_to_blade_ratio: float  # R_b, 0 for face milling
     tilt_angle: float = 0.0  # i
     swivel_angle: float = 0.0  # j
     blank_offset: float = 0.0  # E_m
@@ -41,55 +59,24 @@ class MachineSettings:
     sliding_base: float = 0.0  # dX_b
     helical_motion: float = 0.0  # h, mm/rad
     modified_roll: Sequence[float] = ()
+    motions: Motions = Motions()
+    cam: Cam | None = None  # turns the work in place of ratio_of_roll and modified_roll
+    generated: bool = True  # False: form cut (Formate, Helixform), the cradle stands at phi = 0
+    cutter_lead: float = (
+        0.0  # Helixform: advance along the cutter axis, mm/rad of the cutter's turn
+    )
 
     @property
-    def constant_motion(self) -> bool:
+    def plain_roll(self) -> bool:
         """Whether the meshing condition is closed in phi: a plain roll and nothing else moving."""
-        return self.helical_motion == 0.0 and not any(self.modified_roll)
+        rolls = self.cam is not None or any(self.modified_roll)
+        return not (rolls or self.helical_motion or self.cutter_lead or self.motions.moved())
 
-
-@jax.tree_util.register_dataclass
-@dataclass(frozen=True)
-class Generator:
-    """What the kinematics of one flank needs of its settings: a tree of numbers, all traced."""
-
-    centre: Vector  # cutter centre in the cradle frame, mm
-    head: tuple[Vector, Vector, Vector]  # rows: rotation from the cutter frame to the cradle frame
-    blank_offset: Scalar
-    sliding_base: Scalar
-    helical_motion: Scalar
-    root_sine: Scalar
-    root_cosine: Scalar
-    machine_center_to_back: Scalar
-    roll: Batch  # W as powers: R_a, R_a c2, ..., R_a c6
-    blade_ratio: Scalar  # R_b
-
-
-def generator(settings: MachineSettings) -> Generator:
-    """The generator of a flank from its basic settings (any of which may be traced)."""
-    q, i, j = settings.cradle_angle, settings.tilt_angle, settings.swivel_angle
-    turn = jnp.pi / 2 - q + j
-    ct, st, ci, si = jnp.cos(turn), jnp.sin(turn), jnp.cos(i), jnp.sin(i)
-    zero = 0.0 * ct
-    roll = [1.0, *settings.modified_roll]
-    roll += [0.0] * (1 + ROLL_ORDERS - len(roll))
-    number = jnp.asarray
-    return Generator(
-        centre=(
-            settings.radial_distance * jnp.cos(q),
-            -settings.radial_distance * jnp.sin(q),
-            zero,
-        ),
-        head=((ct * ci, -st, ct * si), (st * ci, ct, st * si), (-si + zero, zero, ci + zero)),
-        blank_offset=number(settings.blank_offset),
-        sliding_base=number(settings.sliding_base),
-        helical_motion=number(settings.helical_motion),
-        root_sine=jnp.sin(settings.machine_root_angle),
-        root_cosine=jnp.cos(settings.machine_root_angle),
-        machine_center_to_back=number(settings.machine_center_to_back),
-        roll=settings.ratio_of_roll * number(roll),
-        blade_ratio=number(settings.roll_to_blade_ratio),
-    )
+    @property
+    def sliding_motion(self) -> tuple[float, ...]:
+        """Coefficients of phi, phi**2, ... by which the sliding base moves, mm/rad**n."""
+        first, *more = [*self.motions.sliding_base, *[0.0] * ORDERS][:ORDERS]
+        return (self.helical_motion + first, *more)
 
 
 def chain(settings: MachineSettings, theta: float, phi: float) -> np.ndarray:
@@ -112,17 +99,27 @@ def chain(settings: MachineSettings, theta: float, phi: float) -> np.ndarray:
         m[:3, 3] = x, y, z
         return m
 
-    work = sum(c * phi ** (n + 1) for n, c in enumerate([1.0, *settings.modified_roll]))
-    base = settings.sliding_base + settings.helical_motion * phi
+    phi = phi if settings.generated else 0.0
+
+    def at(name: str) -> float:
+        powers = enumerate(getattr(settings.motions, name), start=1)
+        return getattr(settings, name) + sum(c * phi**n for n, c in powers)
+
+    roll = sum(c * phi ** (n + 1) for n, c in enumerate([1.0, *settings.modified_roll]))
+    work = settings.ratio_of_roll * roll
+    if settings.cam is not None:
+        work = float(cam_roll(settings.cam, np.float64(phi))[0])
+    base = at("sliding_base") + settings.helical_motion * phi
     return (
-        turn(2, -(settings.roll_to_blade_ratio * theta + settings.ratio_of_roll * work))
-        @ shift(0.0, 0.0, -settings.machine_center_to_back)
-        @ turn(1, -(np.pi / 2 - settings.machine_root_angle))
-        @ shift(0.0, settings.blank_offset, -base)
+        turn(2, -(settings.roll_to_blade_ratio * theta + work))
+        @ shift(0.0, 0.0, -at("machine_center_to_back"))
+        @ turn(1, -(np.pi / 2 - at("machine_root_angle")))
+        @ shift(0.0, at("blank_offset"), -base)
         @ turn(2, phi)
         @ turn(2, np.pi / 2 - settings.cradle_angle)
-        @ shift(0.0, -settings.radial_distance, 0.0)
-        @ turn(2, settings.swivel_angle)
-        @ turn(1, settings.tilt_angle)
+        @ shift(0.0, -at("radial_distance"), 0.0)
+        @ turn(2, at("swivel_angle"))
+        @ turn(1, at("tilt_angle"))
+        @ shift(0.0, 0.0, settings.cutter_lead * theta)
         @ turn(2, -theta)
     )

@@ -44,10 +44,18 @@ def pattern_figure(found: Results) -> Figure:
     return drawn
 
 
+def _outline(axes: Axes, flank: Flank) -> tuple[Any, Any, Any]:
+    """The tooth over (S, H), filled; its ends (toe, heel), tip and root heights there."""
+    ends = np.array([flank.toe, flank.heel])
+    tips, roots = flank.tip.at(ends), flank.root.at(ends)
+    axes.fill([*ends, *ends[::-1]], [*roots, *tips[::-1]], color=STEEL, zorder=0)
+    return ends, tips, roots
+
+
 def _flank_frame(axes: Axes, flank: Flank) -> None:
     """Outline of the tooth over (S, H), toe and heel, tip and root named."""
-    toe, heel, tip, root = flank.toe, flank.heel, flank.tip, flank.root
-    axes.fill([toe, heel, heel, toe], [root, root, tip, tip], color=STEEL, zorder=0)
+    ends, tips, roots = _outline(axes, flank)
+    (toe, heel), tip, root = ends, tips.max(), roots.min()
     limit = np.linspace(toe, heel, 60)
     low = np.asarray(flank.charts["flank"].bounds(limit)[0])
     axes.plot(limit, low, "--", color=GREY, linewidth=0.8)
@@ -156,8 +164,7 @@ def _small(axes: Axes, result: DirectionResult, moved: Pattern, title: str) -> N
     assert aligned is not None
     assert result.contact is not None
     flank = result.contact.pinion_flank
-    axes.fill([flank.toe, flank.heel, flank.heel, flank.toe],
-              [flank.root, flank.root, flank.tip, flank.tip], color=STEEL, zorder=0)  # fmt: skip
+    _outline(axes, flank)
     distance = np.broadcast_to(aligned.distance, aligned.gap.shape)
     _paint(axes, distance, aligned.height, aligned, GREY, 0.5)
     _paint(axes, distance, moved.height, moved, COLOURS[result.direction], 0.6)

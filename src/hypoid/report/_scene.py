@@ -133,10 +133,10 @@ def _teeth(member: Member) -> list[Part]:
     for flank in (member.concave, member.convex):
         # nodes crowd towards the fillet; the runout into the root land is a double root
         share = np.linspace(0.0, 1.0, ROWS) ** 1.4
-        height = flank.root + 1e-3 + (flank.tip - flank.root - 1e-3) * share
         distance = np.linspace(flank.toe, flank.heel, COLUMNS[member.name])
-        grid = np.meshgrid(distance, height)
-        sides[flank.side] = _left_hand(flank, *grid)
+        low, high = flank.root.at(distance) + 1e-3, flank.tip.at(distance)
+        height = low + np.outer(share, high - low)
+        sides[flank.side] = _left_hand(flank, np.broadcast_to(distance, height.shape), height)
     concave, convex = sides["concave"], sides["convex"]
     # a left-hand tooth reaches from its concave flank in the sense of growing angle
     apart = _mean_angle(convex) - _mean_angle(concave)
@@ -200,7 +200,7 @@ def _patch(flank: Flank, distance: Array, height: Array, touched: Array) -> Part
     """The touched part of a flank, a little proud of it."""
     inside = np.where(touched & np.isfinite(distance) & np.isfinite(height), 1.0, np.nan)
     distance = np.clip(distance, flank.toe, flank.heel) * inside
-    height = np.clip(height, flank.root, flank.tip) * inside
+    height = np.clip(height, flank.root.at(distance), flank.tip.at(distance)) * inside
     vertices = _left_hand(flank, distance, height, LIFT)
     return _grid(vertices[::-1] if flank.side == "concave" else vertices)
 

@@ -1,0 +1,75 @@
+"""From settings and an edge to a flank: which root of the meshing condition is the tooth."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from hypoid.cutter import EdgePiece
+from hypoid.machine import MachineSettings, Way, generator
+
+from ._chart import Border, PitchCone
+from ._envelope import Surface
+from ._flank import Flank, Side
+from ._locate import roots_near
+
+LOOK = 8.0  # rad of cradle turn that weigh as much as a cone distance, in choosing a root
+SCAN = 361  # turns that are looked at
+CRADLE_REACH = 1.2  # rad either way: a cradle rolls less than a cutter turns
+
+
+def best_way(settings: MachineSettings, revolution: bool) -> Way:
+    """How the meshing condition of a flank is best met; ``revolution`` for a face-mill cutter."""
+    if not settings.generated:
+        return "form"
+    if revolution:
+        return "cutter"
+    return "cradle" if settings.plain_roll else "newton"
+
+
+def cut_flank(
+    member: str,
+    side: Side,
+    settings: MachineSettings,
+    pieces: Mapping[str, EdgePiece],
+    cone: PitchCone,
+    *,
+    mirrored: bool,
+    toe: float,
+    heel: float,
+    tip: Border,
+    root: Border,
+    way: Way,
+    theta_start: float | None = None,
+) -> Flank:
+    """The flank that an edge cuts under given settings, by one way of meeting the meshing condition.
+
+    Of all roots the one that passes nearest the mean point of the face, near the centre of roll.
+    ``theta_start`` is the turn that puts the mean point in place, where it is known.
+    """
+    gen, piece = generator(settings), pieces["flank"]
+    middle = 0.5 * (toe + heel)
+    if theta_start is not None:
+        s, turns = np.clip([0.0], float(piece.low), float(piece.high)), np.array([theta_start])
+    else:
+        s = float(piece.low) + (float(piece.high) - float(piece.low)) * np.array([0.25, 0.5, 0.75])
+        reach = CRADLE_REACH if way == "cutter" else np.pi
+        turns = np.linspace(-reach, reach, SCAN)
+    a, t = (grid.ravel() for grid in np.meshgrid(s, turns))
+    best, chosen, start = np.inf, Surface(gen, 1.0, 1.0, way), 0.0
+    for branch in (1.0, -1.0):
+        surface = Surface(gen, branch, 1.0, way)
+        phi, discriminant, tangential, z, rho = roots_near(surface, piece, a, t)
+        distance, height = cone.cone_distance_height(z, rho)
+        score = np.hypot(distance - middle, height) / middle + np.abs(phi) / LOOK
+        score = np.where(discriminant > 0.0, score, np.inf)
+        k = int(np.argmin(score))
+        if score[k] < best:
+            # A left-hand member turns its concave flanks to falling angles, convex ones to rising.
+            wanted = -1.0 if side == "concave" else 1.0
+            best, start = float(score[k]), float(t[k])
+            chosen = Surface(gen, branch, float(np.sign(tangential[k]) * wanted), way)
+    return Flank(
+        member, side, settings, pieces, chosen, cone, mirrored, start, toe, heel, tip, root
+    )
