@@ -2,8 +2,10 @@
 
 Coordinates are the cone distance S and the height H above the pitch cone. A piece covers S from toe
 to heel and H between two of its own edge lines H_low(S) and H_high(S), so that its rectangle
-(x, y) in [-1, 1]**2 never asks for a point the piece does not have. Next to the root land H grows
-with the square of the edge length, so a fillet's y counts the root of the height.
+(x, y) in [-1, 1]**2 never asks for a point the piece does not have. A fillet's chart begins at
+its lowest line, where the edge runs along the root: at the root land, or on the arc of a tilted
+cutter or its extension. H grows from there with the square of the edge length, so y counts the root
+of the height.
 """
 
 from __future__ import annotations
@@ -14,6 +16,7 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 import numpy as np
+from numpy.polynomial import chebyshev
 
 from hypoid.cutter import EdgePiece
 from hypoid.geometry import (
@@ -32,6 +35,8 @@ from hypoid.geometry import (
 from ._envelope import Surface, axial_radial_angle, newton_pair
 
 COLUMNS, ROWS = 14, 12  # polynomial orders along S and across
+ALONG_EDGE = 20  # nodes along an edge arc, to find its lowest point
+RESERVE = 0.5  # mm that a chart reaches beyond the tooth's tip, where the edge does
 
 
 @jax.tree_util.register_dataclass
@@ -79,6 +84,7 @@ class Chart:
     angle: Any  # powers (i, j)
     s: Any
     theta: Any
+    first: Batch  # powers of the edge parameter (mm) along H_low
     rooted: Scalar  # 1 where y counts the root of the height (fillet), else 0
     sense: Scalar  # sign of the derivatives' determinant of (S, H) by (s, theta), mid-face
     error: Scalar  # greatest misfit of the angle seen, rad; infinite where the piece folds
@@ -141,13 +147,34 @@ def height_at(
     return s, theta, *rest
 
 
-def _edge_line(
-    surface: Surface, piece: EdgePiece, cone: PitchCone, distance: Any, s: float, theta: float
+def edge_line(
+    surface: Surface, piece: EdgePiece, cone: PitchCone, distance: Any, s: Any, theta: float
 ) -> tuple[Any, Any]:
-    """Theta and H where the line s = const of a piece reaches the cone distances S."""
-    full = np.ones(len(distance))
-    at = (distance, 0.0 * full, full, s * full, theta * full)
+    """Theta and H where the lines s = const of a piece reach the cone distances S."""
+    distance, s = (a.ravel() for a in np.broadcast_arrays(distance, s))
+    at = (distance, np.zeros(len(s)), np.ones(len(s)), s, np.full(len(s), theta))
     return tuple(_solved(surface, piece, cone, *at)[1:3])  # pyright: ignore[reportReturnType]
+
+
+def _lowest(
+    surface: Surface, piece: EdgePiece, cone: PitchCone, distance: Any, theta: float
+) -> Any:
+    """Edge parameter (mm) of the lowest point of an edge arc at each S, the arc extended below its end."""
+    low, half = float(piece.low), 0.5 * (float(piece.high) - float(piece.low))
+    x = nodes(ALONG_EDGE)
+    _, height = edge_line(surface, piece, cone, distance[:, None], low + half * x, theta)
+    slope = chebyshev.chebder(
+        np.linalg.solve(chebyshev.chebvander(x, ALONG_EDGE - 1), height.reshape(-1, ALONG_EDGE).T)
+    )
+    return low + half * np.array([_nearest_minimum(column) for column in slope.T])
+
+
+def _nearest_minimum(slope: Any) -> float:
+    """Root in [-1, 1] nearest 0 of a Chebyshev series that rises through it; 0 if there is none."""
+    roots = chebyshev.chebroots(slope)
+    roots = roots[(np.abs(roots.imag) < 1e-9) & (np.abs(roots.real) < 1.0)].real
+    roots = roots[chebyshev.chebval(roots, chebyshev.chebder(slope)) > 0.0]
+    return float(roots[np.argmin(np.abs(roots))]) if len(roots) else 0.0
 
 
 def chart(
@@ -158,20 +185,27 @@ def chart(
     heel: float,
     theta_start: float,
     rooted: bool,
+    tip: Border | None = None,
 ) -> Chart:
-    """Chart of a piece between toe and heel (S, mm); nodes that fail keep their start values."""
+    """Chart of a piece between toe and heel (S, mm), not far beyond a tip; nodes that fail keep their start."""
     x, y = nodes(COLUMNS), nodes(ROWS)
     distance = 0.5 * (heel + toe) + 0.5 * (heel - toe) * x
-    low, high = float(piece.low), float(piece.high)
-    full = np.full(COLUMNS, 1.0)
-    theta_low, height_low = _edge_line(surface, piece, cone, distance, low, theta_start)
-    theta_high, height_high = _edge_line(surface, piece, cone, distance, high, theta_start)
+    low, high = np.full(COLUMNS, float(piece.low)), float(piece.high)
+    if rooted:
+        low = _lowest(surface, piece, cone, distance, theta_start)
+    theta_low, height_low = edge_line(surface, piece, cone, distance, low, theta_start)
+    theta_high, height_high = edge_line(surface, piece, cone, distance, high, theta_start)
+    reach = 1.0  # share of the edge that is charted
+    if tip is not None and np.all(height_high > tip.at(distance) + RESERVE):
+        wanted = tip.at(distance) + RESERVE
+        reach = np.outer((wanted - height_low) / (height_high - height_low), np.ones(ROWS))
+        height_high = wanted
     t = 0.5 * (1.0 + y)
     share = t**2 if rooted else t
-    mix = np.outer(full, share)
-    heights = height_low[:, None] + (height_high - height_low)[:, None] * mix
-    s0 = low + (high - low) * np.outer(full, t)
-    theta0 = theta_low[:, None] + (theta_high - theta_low)[:, None] * np.outer(full, t)
+    heights = height_low[:, None] + np.outer(height_high - height_low, share)
+    along = reach * np.outer(np.ones(COLUMNS), t)
+    s0 = low[:, None] + (high - low)[:, None] * along
+    theta0 = theta_low[:, None] + (theta_high - theta_low)[:, None] * along
     shape = heights.shape
     s, theta, angle, left, sense = (
         part.reshape(shape)
@@ -189,6 +223,7 @@ def chart(
         angle=fit(angle),
         s=fit(s),
         theta=fit(theta),
+        first=fit_line(np.maximum(low, float(piece.low))),
         rooted=float(rooted),
         sense=float(np.sign(sense[COLUMNS // 2, ROWS // 2])),
         error=np.inf,

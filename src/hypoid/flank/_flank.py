@@ -5,18 +5,19 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import product
 from typing import Any, Literal
 
 import numpy as np
 from jaxtyping import Float, Int
 
 from hypoid.cutter import EdgePiece
-from hypoid.geometry import horner
+from hypoid.geometry import horner, horner_line, on_unit
 from hypoid.machine import MachineSettings
 
 from ._chart import Border, Chart, PitchCone, chart, height_at
 from ._envelope import Surface
-from ._locate import curvatures, from_cutter, locate, locate_slowly
+from ._locate import curvatures, from_cutter, locate, locate_from, locate_slowly
 from ._status import PointStatus
 
 Array = np.ndarray[Any, Any]
@@ -26,6 +27,7 @@ RUNOUT, RUNOUT_TOLERANCE = (
     2e-2,
     1e-6,
 )  # mm: last bit of edge before the root land, what is left there
+UNDERCUT_STARTS = (0.1, 0.35, 0.6, 0.85, 1.0)  # shares of the edge
 EDGE = 1e-7  # mm, how far past its own end a piece may be read
 
 
@@ -108,6 +110,7 @@ class Flank:
                 self.heel,
                 self.theta_start,
                 rooted=name == "fillet",
+                tip=self.tip if name == self.cut_pieces[0] else None,
             )
             for name in self.cut_pieces
         }
@@ -135,10 +138,10 @@ class Flank:
         status = np.full(len(z), PointStatus.NOT_CONVERGED, dtype=np.int8)
         piece = np.zeros(len(z), dtype=np.int8)
 
-        def ask(index: int, places: Array) -> None:
+        def ask(index: int, places: Array, share: float | None = None) -> None:
             if not len(places):
                 return
-            got, state = self._on_piece(self.cut_pieces[index], z[places], rho[places])
+            got, state = self._on_piece(self.cut_pieces[index], z[places], rho[places], share)
             before = status[places]
             take = (state == PointStatus.SINGULAR) & (before == PointStatus.NOT_CONVERGED)
             take |= (state == PointStatus.OK) & (before != PointStatus.OK)
@@ -159,9 +162,9 @@ class Flank:
             missed = asked & (status != PointStatus.OK)
             for index in range(count):
                 ask(index, np.flatnonzero(missed & (np.abs(owner - index) == 1)))
-        else:
-            for index in range(count):
-                ask(index, np.flatnonzero(asked))
+        else:  # a piece may pass a place more than once: from several places along its edge
+            for index, share in product(range(count), (None, *UNDERCUT_STARTS)):
+                ask(index, np.flatnonzero(asked), share)
         failed = np.flatnonzero(status >= PointStatus.SINGULAR)
         values[:, failed] = np.nan
         status[asked & ~self._on_blank(distance, height)] = PointStatus.OUTSIDE_BLANK
@@ -231,16 +234,24 @@ class Flank:
         """Surface points at cone distance S and height H above the pitch cone (mm)."""
         return self.at(*self.cone.axial_radial(np.asarray(distance), np.asarray(height)))
 
-    def _on_piece(self, name: str, z: Array, rho: Array) -> tuple[Array, Array]:
+    def _on_piece(
+        self, name: str, z: Array, rho: Array, share: float | None = None
+    ) -> tuple[Array, Array]:
         """Rows of values (position, normal, s, theta; left hand) and a status at places (z, rho).
 
         The quick way only arrives where surface and chart have one sense, so the chart's serves.
+        ``share`` starts from that share of the edge instead of the chart.
         """
         piece, chart = self.pieces[name], self.charts[name]
         args = (self.surface, piece, chart, self.cone)
         sense = np.full(len(z), chart.sense)
         values = locate(*args, z, rho) if np.isfinite(chart.error) else np.full((9, len(z)), np.inf)
         poor = np.flatnonzero(~(values[8] < TOLERANCE))
+        if share is not None:
+            start = float(piece.low) + share * (float(piece.high) - float(piece.low))
+            rest = self.surface, piece, self.cone, z, rho, start, self.theta_start
+            *values, sense = locate_from(*rest)
+            values, poor = np.array(values), np.array([], dtype=int)
         if len(poor):
             _, y = chart.coordinates(*self.cone.cone_distance_height(z[poor], rho[poor]))
             poor = poor[np.abs(y) < 1.5]  # elsewhere the piece is not asked for
@@ -253,9 +264,11 @@ class Flank:
         if (
             name == "fillet"
         ):  # where it runs out into the root land, the equations have a double root
-            runout = s < float(piece.low) + RUNOUT
+            x = on_unit(self.toe, self.heel, self.cone.cone_distance_height(z, rho)[0])
+            first = np.asarray(horner_line(chart.first, np.clip(x, -1.0, 1.0)))
+            runout = s < first + RUNOUT
             met |= runout & (left < RUNOUT_TOLERANCE)
-            low = np.where(runout, float(piece.low) - RUNOUT, low)
+            low = np.where(runout, first - RUNOUT, first - EDGE)
             singular &= ~runout
         met &= (s >= low) & (s <= high)
         state = np.full(len(z), PointStatus.NOT_CONVERGED, dtype=np.int8)

@@ -11,7 +11,7 @@ import numpy as np
 from hypoid.cutter import EdgePiece
 from hypoid.geometry import Batch, Batched, Rows, horner, once
 
-from ._chart import Chart, PitchCone, height_at
+from ._chart import Chart, PitchCone, edge_line, height_at
 from ._envelope import Surface, placed, position_and_normal
 
 AIMS = 5  # tries of the quick way
@@ -57,7 +57,21 @@ def locate_slowly(
     surface: Surface, piece: EdgePiece, chart: Chart, cone: PitchCone, z: Rows, rho: Rows
 ) -> Rows:
     """The same by full Newton with limited steps, and the Jacobian's sense: where charts fail."""
-    start = _start(chart, cone, z, rho)
+    return _newton(surface, piece, cone, z, rho, _start(chart, cone, z, rho))
+
+
+def locate_from(
+    surface: Surface, piece: EdgePiece, cone: PitchCone, z: Rows, rho: Rows, s: float, theta: float
+) -> Rows:
+    """The same from where the edge line s reaches the cone distance, next to turn theta."""
+    distance, _ = cone.cone_distance_height(z, rho)
+    line, _ = edge_line(surface, piece, cone, distance, s, theta)
+    return _newton(surface, piece, cone, z, rho, (np.full(len(z), s), line))
+
+
+def _newton(
+    surface: Surface, piece: EdgePiece, cone: PitchCone, z: Rows, rho: Rows, start: Any
+) -> Rows:
     place = cone.cone_distance_height(z, rho)
     s, theta, _, left, sense = height_at(surface, piece, cone, *place, *start)
     return np.vstack([from_cutter(surface, piece, s, theta), s, theta, left, sense])
