@@ -85,7 +85,7 @@ def edge_mp(piece: EdgePiece, s: Any) -> list[Any]:
     k, beyond = mpmath.mpf(float(piece.curvature)), max(s - float(piece.relief_from), 0)
     along = mpmath.sin(k * s) / k if k else s
     rise = (1 - mpmath.cos(k * s)) / k if k else mpmath.mpf(0)
-    rise += float(piece.relief) * beyond**2
+    rise += float(piece.relief) * beyond**2 + float(piece.parabola) * s**2
     return [
         float(p) + along * float(t) + rise * float(g)
         for p, t, g in zip(piece.start, piece.tangent, piece.metal, strict=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import pi
 from typing import Any
 
@@ -13,7 +14,9 @@ from independent import edge_mp
 from hypoid.cutter import EdgePiece, edge_point
 
 
-def piece(curvature: float = 0.0, relief: float = 0.0, relief_from: float = 0.0) -> EdgePiece:
+def piece(
+    curvature: float = 0.0, relief: float = 0.0, relief_from: float = 0.0, parabola: float = 0.0
+) -> EdgePiece:
     c, s = np.cos(0.3), np.sin(0.3)
     return EdgePiece(
         start=(98.0, -3.0, 0.7),  # pyright: ignore[reportArgumentType]
@@ -24,6 +27,7 @@ def piece(curvature: float = 0.0, relief: float = 0.0, relief_from: float = 0.0)
         relief_from=relief_from,
         low=-3.0,
         high=3.0,
+        parabola=parabola,
     )
 
 
@@ -34,19 +38,34 @@ def points(edge: EdgePiece, s: Any) -> tuple[np.ndarray[Any, Any], np.ndarray[An
 
 @pytest.mark.parametrize(
     "edge",
-    [piece(), piece(-1.0 / 1.032), piece(1.0 / 762.0), piece(0.0, 0.004, 0.9), piece(0.1, 0.01)],
-    ids=["line", "edge arc", "curved blade", "relief", "arc and relief"],
+    [
+        piece(),
+        piece(-1.0 / 1.032),
+        piece(1.0 / 762.0),
+        piece(0.0, 0.004, 0.9),
+        piece(0.1, 0.01),
+        piece(parabola=-0.003),
+        piece(0.1, 0.01, 0.9, 0.003),
+    ],
+    ids=["line", "edge arc", "curved blade", "relief", "arc and relief", "parabola", "all terms"],
 )
 def test_point_and_derivative_agree_with_forty_digits(edge: EdgePiece, forty_digits: None) -> None:
     s = np.linspace(-3.0, 3.0, 25)
     point, derivative = points(edge, s)
     h = mpmath.mpf("1e-15")
+
+    def exact(at: Any) -> mpmath.matrix:
+        bow = float(edge.parabola) * mpmath.mpf(at) ** 2
+        straight = replace(edge, parabola=0.0)
+        return mpmath.matrix(
+            [p + bow * float(m) for p, m in zip(edge_mp(straight, at), edge.metal, strict=True)]
+        )
+
     for i, value in enumerate(s):
-        exact = mpmath.matrix(edge_mp(edge, mpmath.mpf(value)))
-        assert mpmath.norm(exact - mpmath.matrix(point[i])) < 5e-14
+        assert mpmath.norm(exact(mpmath.mpf(value)) - mpmath.matrix(point[i])) < 5e-14
         if abs(value - edge.relief_from) > 1e-9:  # the parabola's start: one-sided only
-            ahead, behind = (mpmath.matrix(edge_mp(edge, value + d)) for d in (h, -h))
-            assert mpmath.norm((ahead - behind) / (2 * h) - mpmath.matrix(derivative[i])) < 1e-14
+            slope = (exact(value + h) - exact(value - h)) / (2 * h)
+            assert mpmath.norm(slope - mpmath.matrix(derivative[i])) < 1e-14
 
 
 @pytest.mark.parametrize("turn", [0.99e-3, 1.01e-3])

@@ -5,3 +5,12 @@ from ._edge import edge_point as edge_point
 from ._face_hob import Blade as Blade
 from ._face_hob import BladeRelief as BladeRelief
 from ._face_hob import FaceHobHead as FaceHobHead
+from ._face_mill import FaceMillHead as FaceMillHead
+from ._mill_blade import BladeCurve as BladeCurve
+from ._mill_blade import CircularProfile as CircularProfile
+from ._mill_blade import Flankrem as Flankrem
+from ._mill_blade import MillBlade as MillBlade
+from ._mill_blade import ParabolicProfile as ParabolicProfile
+from ._mill_blade import Toprem as Toprem
+from ._profile import BladeName as BladeName
+from ._profile import PlanePiece as PlanePiece

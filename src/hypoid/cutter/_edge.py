@@ -1,12 +1,13 @@
-"""A cutting edge: plane pieces, each a line, an arc or a one-sided parabola, placed in the cutter.
+"""A cutting edge: plane pieces, each a line, an arc or a parabola, placed in the cutter.
 
 One form holds every edge of the four papers (edge arc, flat land, straight and curved blade,
 Toprem, tip relief): with f and g the run along a start tangent and the rise towards the metal,
 
-    f = sin(k s)/k,   g = (1 - cos(k s))/k + c max(s - b, 0)**2,
+    f = sin(k s)/k,   g = (1 - cos(k s))/k + p s**2 + c max(s - b, 0)**2,
 
-a line for k = c = 0, an arc of curvature k, and a relief of parabola coefficient c from s = b on.
-So one compiled function serves every edge. Pieces run from the blade's tip to its shank.
+a line for k = p = c = 0, an arc of curvature k, a parabola of coefficient p about s = 0, and a relief
+of parabola coefficient c from s = b on. So one compiled function serves every edge. Pieces run from
+the blade's tip to its shank.
 """
 
 from __future__ import annotations
@@ -37,6 +38,7 @@ class EdgePiece:
     relief_from: Scalar  # b, mm
     low: Scalar  # s at the tip end, mm
     high: Scalar  # s at the shank end, mm
+    parabola: Scalar = 0.0  # p, 1/mm, positive where the edge bends towards the metal
 
     def turned(self, angle: float) -> EdgePiece:
         """The same piece turned about the cutter axis, rad."""
@@ -69,8 +71,9 @@ def edge_point(piece: EdgePiece, s: Batch) -> tuple[Vector, Vector]:
     turn = piece.curvature * s
     straight, bent = _sine_and_versine(turn * turn)
     beyond = jnp.maximum(s - piece.relief_from, 0.0)
-    along, rise = s * straight, s * turn * bent + piece.relief * beyond * beyond
-    along_s, rise_s = 1.0 - turn * turn * bent, turn * straight + 2.0 * piece.relief * beyond
+    bow, lift = piece.parabola * s, piece.relief * beyond
+    along, rise = s * straight, s * (turn * bent + bow) + lift * beyond
+    along_s, rise_s = 1.0 - turn * turn * bent, turn * straight + 2.0 * (bow + lift)
     along, rise, along_s, rise_s = once((along, rise, along_s, rise_s))
     point = tuple(
         p + along * t + rise * m

@@ -8,13 +8,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal
 
 from hypoid.geometry import DesignError, Problem
 
 from ._edge import EdgePiece
-
-BladeName = Literal["outer", "inner"]
+from ._profile import BladeName, PlanePiece, fillet_piece, land_piece, placed
 
 
 @dataclass(frozen=True)
@@ -50,42 +48,18 @@ class Blade:
         tip = (arc_start_x, self.reference_height)
         relief = self.relief or BladeRelief(0.0, math.inf)
         return (
-            PlanePiece("land", tip, 0.0, 0.0, 0.0, 0.0, -self.land, 0.0),
-            PlanePiece(
-                "fillet",
-                tip,
-                0.0,
-                -1.0 / self.edge_radius,
-                0.0,
-                0.0,
-                0.0,
-                self.edge_radius * (math.pi / 2 - self.pressure_angle),
-            ),
+            land_piece(tip, self.land),
+            fillet_piece(tip, self.edge_radius, self.pressure_angle),
             PlanePiece(
                 "flank",
                 (0.0, 0.0),
                 math.pi / 2 - self.pressure_angle,
-                0.0,
-                relief.coefficient,
-                min(relief.start, 1e3),
                 -self.arc_height / cosine,
                 self.shank_height / cosine,
+                relief=relief.coefficient,
+                relief_from=min(relief.start, 1e3),
             ),
         )
-
-
-@dataclass(frozen=True)
-class PlanePiece:
-    """A piece of a blade's profile in its front plane (x to the metal, z to the tip); mm, rad."""
-
-    name: str
-    start: tuple[float, float]
-    dip: float  # angle of the tangent below the x axis at s = 0
-    curvature: float
-    relief: float
-    relief_from: float
-    low: float
-    high: float
 
 
 @dataclass(frozen=True)
@@ -108,24 +82,7 @@ class FaceHobHead:
         blade = self.outer if name == "outer" else self.inner
         side = 1.0 if name == "outer" else -1.0
         across = (math.cos(self.slope_angle) * side, -math.sin(self.slope_angle) * side)
-
-        def place(x: float, z: float) -> tuple[float, float, float]:
-            return (x * across[0], x * across[1], z)
-
-        pieces: dict[str, EdgePiece] = {}
-        for plane in blade.profile:
-            cosine, sine = math.cos(plane.dip), math.sin(plane.dip)
-            x, y, z = place(*plane.start)
-            pieces[plane.name] = EdgePiece(
-                start=(self.radius + x, y, z),  # pyright: ignore[reportArgumentType]
-                tangent=place(cosine, -sine),  # pyright: ignore[reportArgumentType]
-                metal=place(sine, cosine),  # pyright: ignore[reportArgumentType]
-                curvature=plane.curvature,
-                relief=plane.relief,
-                relief_from=plane.relief_from,
-                low=plane.low,
-                high=plane.high,
-            )
+        pieces = placed(blade.profile, self.radius, across)
         phase = 0.0 if name == "outer" else -math.pi / self.blade_groups
         return {key: piece.turned(phase) for key, piece in pieces.items()}
 
