@@ -14,7 +14,7 @@ import jax
 import jax.numpy as jnp
 
 from hypoid.cutter import EdgePiece
-from hypoid.geometry import Batch, Scalar, Vector, once, scale, turn_z, unit
+from hypoid.geometry import Batch, Scalar, Vector, once, scale, sine_cosine, turn_z, unit
 from hypoid.machine import Generator, Placed, Way, meshed
 
 
@@ -39,7 +39,7 @@ def position_and_normal(
 ) -> tuple[Vector, Vector]:
     """Points (mm) and unit normals out of the tooth, left-hand member's frame."""
     at, _ = placed(surface, piece, s, theta)
-    cosine, sine = once((jnp.cos(at.turn), -jnp.sin(at.turn)))
+    sine, cosine = once(sine_cosine(-at.turn))
     normal = once(scale(surface.outward, unit(at.normal)))
     return turn_z(cosine, sine, at.point), turn_z(cosine, sine, normal)
 

@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from ._jax import compiled_fused as compiled_fused
     from ._jax import once as once
     from ._namespace import namespace as namespace
+    from ._trig import sine_cosine as sine_cosine
+    from ._trig import unit_angle as unit_angle
     from ._vector import add as add
     from ._vector import cross as cross
     from ._vector import dot as dot
@@ -36,6 +38,7 @@ _HOMES = {
     "_chebyshev": ("fit", "fit_line", "horner", "horner_line", "nodes", "on_unit"),
     "_jax": ("Batch", "Batched", "Rows", "Scalar", "Vector", "compiled", "compiled_fused", "once"),
     "_namespace": ("namespace",),
+    "_trig": ("sine_cosine", "unit_angle"),
     "_vector": ("add", "cross", "dot", "scale", "turn_z", "unit"),
 }
 _HOME = {name: module for module, names in _HOMES.items() for name in names}

@@ -20,7 +20,18 @@ import jax
 import jax.numpy as jnp
 
 from hypoid.cutter import EdgePiece, edge_point
-from hypoid.geometry import Batch, Vector, add, cross, dot, once, scale, turn_z
+from hypoid.geometry import (
+    Batch,
+    Vector,
+    add,
+    cross,
+    dot,
+    once,
+    scale,
+    sine_cosine,
+    turn_z,
+    unit_angle,
+)
 
 from ._pose import Generator, Pose, pose, rotated, to_work
 
@@ -62,7 +73,7 @@ class Placed:
 def sweep(gen: Generator, piece: EdgePiece, s: Batch, theta: Batch) -> SweptEdge:
     """Edge points turned with the cutter by -theta, cutter frame (not turning)."""
     point, tangent = edge_point(piece, s)
-    cosine, sine = once((jnp.cos(theta), jnp.sin(theta)))
+    sine, cosine = once(sine_cosine(theta))
     x, y, z = turn_z(cosine, -sine, point)
     along = turn_z(cosine, -sine, tangent)
     lead = gen.cutter_lead
@@ -169,13 +180,14 @@ def mesh_newton(gen: Generator, edge: SweptEdge, branch: Batch | float, steps: i
         value, slope = slope_at(phi)
         return phi - jnp.clip(value / slope, -0.2, 0.2)
 
-    phi = jnp.arctan2(start.sine, start.cosine)
+    phi = unit_angle(start.cosine, start.sine)
     phi = jax.lax.stop_gradient(jax.lax.fori_loop(0, steps, step, phi))
     value, slope = slope_at(phi)
     phi = phi - meshing_function(gen, edge, phi)[0] / jax.lax.stop_gradient(slope)
     left = jnp.abs(value / slope)
     discriminant = jnp.where(left < 1e-9, slope * slope, -1.0)  # not met: as never meshing
-    return Meshing(jnp.cos(phi), jnp.sin(phi), slope, discriminant)
+    sine, cosine = sine_cosine(phi)
+    return Meshing(cosine, sine, slope, discriminant)
 
 
 def to_member(at: Generator | Pose, q: Vector, normal: Vector, turn: Batch, phi: Batch) -> Placed:
@@ -188,7 +200,7 @@ def to_member(at: Generator | Pose, q: Vector, normal: Vector, turn: Batch, phi:
 
 def place_plain(gen: Generator, edge: SweptEdge, theta: Batch, mesh: Meshing) -> Placed:
     """Meshed points (edge in the cradle frame) under a plain roll."""
-    phi = jnp.arctan2(mesh.sine, mesh.cosine)
+    phi = unit_angle(mesh.cosine, mesh.sine)
     r = turn_z(mesh.cosine, mesh.sine, edge.point)
     q = (r[0], r[1] + gen.blank_offset, r[2] - gen.sliding_base[0])
     normal = turn_z(mesh.cosine, mesh.sine, _crown_normal(gen, edge))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import jax.numpy as jnp
 
 from hypoid.cutter import EdgePiece
-from hypoid.geometry import Batch
+from hypoid.geometry import Batch, unit_angle
 
 from ._generator import Placed, Way, mesh_closed, mesh_newton, place, place_plain, sweep, to_cradle
 from ._pose import Generator
@@ -31,4 +31,4 @@ def meshed(
         mesh = mesh_closed(gen, edge, branch)
         return place_plain(gen, edge, turn, mesh), mesh.discriminant
     mesh = mesh_newton(gen, edge, branch)
-    return place(gen, edge, turn, jnp.arctan2(mesh.sine, mesh.cosine)), mesh.discriminant
+    return place(gen, edge, turn, unit_angle(mesh.cosine, mesh.sine)), mesh.discriminant

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import jax
 import jax.numpy as jnp
 
-from hypoid.geometry import Batch, Scalar, Vector, turn_z
+from hypoid.geometry import Batch, Scalar, Vector, once, sine_cosine, turn_z
 
 from ._cam import Cam, cam_roll
 from ._settings import ORDERS, MachineSettings
@@ -73,9 +73,12 @@ def generator(settings: MachineSettings) -> Generator:
     roll = settings.ratio_of_roll * powers(1.0, settings.modified_roll)[:ORDERS]
     if settings.cam is not None:  # its first power, where closed forms begin
         roll = number([cam_roll(settings.cam, number(0.0))[1], *[0.0] * (ORDERS - 1)])
+    turn = jnp.pi / 2 - settings.cradle_angle + settings.swivel_angle
     return Generator(
         centre=_centre(settings.radial_distance, settings.cradle_angle),
-        head=_head(settings.cradle_angle, settings.tilt_angle, settings.swivel_angle),
+        head=_head(
+            jnp.sin(turn), jnp.cos(turn), jnp.sin(settings.tilt_angle), jnp.cos(settings.tilt_angle)
+        ),
         cradle_angle=number(settings.cradle_angle),
         blank_offset=number(settings.blank_offset),
         root_sine=jnp.sin(settings.machine_root_angle),
@@ -95,9 +98,8 @@ def _centre(radial: Scalar, cradle_angle: Scalar) -> Vector:
     return radial * c, -radial * s, 0.0 * c
 
 
-def _head(cradle_angle: Scalar, tilt: Scalar, swivel: Scalar) -> Rotation:
-    turn = jnp.pi / 2 - cradle_angle + swivel
-    ct, st, ci, si = jnp.cos(turn), jnp.sin(turn), jnp.cos(tilt), jnp.sin(tilt)
+def _head(st: Scalar, ct: Scalar, si: Scalar, ci: Scalar) -> Rotation:
+    """Rotation of the head from sines and cosines of its turn about the cradle's axis and its tilt."""
     zero = 0.0 * ct * ci
     return (
         (ct * ci, -st + zero, ct * si),
@@ -157,8 +159,8 @@ def pose(gen: Generator, phi: Batch) -> Pose:
     back, rates = gen.machine_center_to_back, None
     if gen.axes is not None:
         *at, back, rates = _moving(gen.axes, gen.cradle_angle, phi)
-    motion = base, base_rate, roll, roll_rate
-    return Pose(jnp.cos(phi), jnp.sin(phi), *at, back, *motion, rates)  # pyright: ignore
+    turn, motion = once((sine_cosine(phi), (base, base_rate, roll, roll_rate)))
+    return Pose(turn[1], turn[0], *at, back, *motion, rates)  # pyright: ignore
 
 
 def _moving(axes: Axes, cradle_angle: Scalar, phi: Batch) -> tuple[object, ...]:
@@ -169,12 +171,12 @@ def _moving(axes: Axes, cradle_angle: Scalar, phi: Batch) -> tuple[object, ...]:
     root, root_rate = _powers(axes.machine_root_angle, phi)
     back, back_rate = _powers(axes.machine_center_to_back, phi)
     c, s = jnp.cos(cradle_angle), jnp.sin(cradle_angle)
-    head = _head(cradle_angle, tilt, swivel)
+    head = _head(*sine_cosine(jnp.pi / 2 - cradle_angle + swivel), *sine_cosine(tilt))
     # tilt turns about the y axis that the swivel has turned, swivel about the cradle's
     spin = (tilt_rate * head[0][1], tilt_rate * head[1][1], swivel_rate)
     drift = (radial_rate * c, -radial_rate * s, 0.0 * phi)
     rates = Rates(drift, spin, offset_rate, root_rate, back_rate)
-    return _centre(radial, cradle_angle), head, offset, jnp.sin(root), jnp.cos(root), back, rates
+    return _centre(radial, cradle_angle), head, offset, *sine_cosine(root), back, rates
 
 
 def _powers(coefficients: Batch, phi: Batch) -> tuple[Batch, Batch]:

@@ -8,10 +8,8 @@ m = z n_r - rho n_z: closed in t for any motions, and linear along a straight ed
 
 from __future__ import annotations
 
-import jax.numpy as jnp
-
 from hypoid.cutter import EdgePiece, edge_point
-from hypoid.geometry import Batch, Vector, add, once, turn_z
+from hypoid.geometry import Batch, Vector, add, once, sine_cosine, turn_z
 
 from ._generator import Meshing, Placed, solve_trigonometric, to_member, velocity
 from ._pose import Generator, Pose, pose, rotated_back
@@ -56,7 +54,8 @@ def mesh_cutter(
 def mesh_straight(gen: Generator, piece: EdgePiece, theta: Batch, phi: Batch) -> Batch:
     """Edge parameter s, mm, where a straight edge meshes at given cutter turn and cradle angle."""
     v, spin = _screw(pose(gen, phi))
-    c, d = jnp.cos(theta), -jnp.sin(theta)
+    sine, c = sine_cosine(theta)
+    d = -sine
     (rho, _, z), (t_r, _, t_z) = piece.start, piece.tangent
     n_r, n_z = t_z, -t_r
     along = v[0] * c + v[1] * d
