@@ -19,7 +19,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from hypoid.geometry import Batch, Scalar, Vector, once
+from hypoid.geometry import Batch, Scalar, Vector, once, polynomial
 
 
 @jax.tree_util.register_dataclass
@@ -52,24 +52,21 @@ class EdgePiece:
         )
 
 
-# sin(x)/x and (1 - cos(x))/x**2 as powers of x**2, highest first: to 1e-16 for |x| up to pi.
-_ORDERS = range(13, -1, -1)
+# sin(x)/x and (1 - cos(x))/x**2 as powers of x**2: to 1e-16 for |x| up to pi.
+_ORDERS = range(14)
 _SINE = tuple((-1) ** k / math.factorial(2 * k + 1) for k in _ORDERS)
 _VERSINE = tuple((-1) ** k / math.factorial(2 * k + 2) for k in _ORDERS)
 
 
 def _sine_and_versine(square: Batch) -> tuple[Batch, Batch]:
     """sin(x)/x and (1 - cos(x))/x**2 from x**2: smooth through zero, so a line is an arc, too."""
-    sine, versine = _SINE[0] + 0.0 * square, _VERSINE[0] + 0.0 * square
-    for a, b in zip(_SINE[1:], _VERSINE[1:], strict=True):
-        sine, versine = sine * square + a, versine * square + b
-    return sine, versine
+    return polynomial(_SINE, square), polynomial(_VERSINE, square)
 
 
 def edge_point(piece: EdgePiece, s: Batch) -> tuple[Vector, Vector]:
     """Point (mm) and derivative by s of an edge piece, in the cutter frame."""
     turn = piece.curvature * s
-    straight, bent = _sine_and_versine(turn * turn)
+    straight, bent = once(_sine_and_versine(turn * turn))
     beyond = jnp.maximum(s - piece.relief_from, 0.0)
     bow, lift = piece.parabola * s, piece.relief * beyond
     along, rise = s * straight, s * (turn * bent + bow) + lift * beyond

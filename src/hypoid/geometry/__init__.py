@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from ._jax import compiled_fused as compiled_fused
     from ._jax import once as once
     from ._namespace import namespace as namespace
+    from ._polynomial import polynomial as polynomial
     from ._trig import sine_cosine as sine_cosine
     from ._trig import unit_angle as unit_angle
     from ._vector import add as add
@@ -38,6 +39,7 @@ _HOMES = {
     "_chebyshev": ("fit", "fit_line", "horner", "horner_line", "nodes", "on_unit"),
     "_jax": ("Batch", "Batched", "Rows", "Scalar", "Vector", "compiled", "compiled_fused", "once"),
     "_namespace": ("namespace",),
+    "_polynomial": ("polynomial",),
     "_trig": ("sine_cosine", "unit_angle"),
     "_vector": ("add", "cross", "dot", "scale", "turn_z", "unit"),
 }

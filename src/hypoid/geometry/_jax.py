@@ -8,6 +8,7 @@ see docs/architecture.md).
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -93,8 +94,8 @@ class Batched:
             inner = self._function
             name = f"{inner.__module__}.{inner.__qualname__} in blocks of {self._shape}"
             self._compiled = compiled(self._blocks, name)
-        # Numbers of one type, whatever the caller holds: nothing compiles twice.
-        parameters = jax.tree.map(_as_float64, arguments[: self._parameters])
+        # Numbers of one type in one vector: nothing compiles twice, and a call hands over little.
+        parameters = Packed(arguments[: self._parameters])
         arrays = [np.asarray(a, float).ravel() for a in arguments[self._parameters :]]
         length = len(arrays[0])
         call = partial(self._compiled, parameters)
@@ -124,8 +125,9 @@ class Batched:
             np.asarray(c).ravel() for c in call(blocks, *(a.reshape(self._shape) for a in parts))
         ]
 
-    def _blocks(self, parameters: tuple[Any, ...], count: int, *arrays: Batch) -> tuple[Batch, ...]:
+    def _blocks(self, packed: Packed, count: int, *arrays: Batch) -> tuple[Batch, ...]:
         function = jax.jit(self._function)  # traced once, though its shape is asked for first
+        parameters = packed.unpacked()
 
         def answer(index: Any) -> tuple[Batch, ...]:
             return once(function(*parameters, *(a[index] for a in arrays)))
@@ -137,8 +139,35 @@ class Batched:
         return jax.lax.fori_loop(0, count, step, (jnp.zeros(self._shape),) * rows)
 
 
-def _as_float64(leaf: Any) -> np.ndarray[Any, Any]:
-    return np.asarray(leaf, dtype=np.float64)
+@jax.tree_util.register_pytree_node_class
+class Packed:
+    """A tree of numbers as one vector of float64, with what is needed to unpack it."""
+
+    def __init__(self, tree: Any) -> None:
+        leaves, structure = jax.tree_util.tree_flatten(tree)
+        parts = [np.asarray(leaf, dtype=np.float64) for leaf in leaves]
+        self._form = (structure, tuple(part.shape for part in parts))
+        self._vector: Any = np.concatenate([[0.0], *(part.ravel() for part in parts)])
+
+    def unpacked(self) -> Any:
+        """The tree again, its leaves read from the vector."""
+        structure, shapes = self._form
+        leaves: list[Any] = []
+        start = 1
+        for shape in shapes:
+            size = math.prod(shape)
+            leaves.append(self._vector[start : start + size].reshape(shape))
+            start += size
+        return jax.tree_util.tree_unflatten(structure, leaves)
+
+    def tree_flatten(self) -> tuple[tuple[Any], Any]:
+        return (self._vector,), self._form
+
+    @classmethod
+    def tree_unflatten(cls, form: Any, vector: tuple[Any]) -> Packed:
+        made = object.__new__(cls)
+        made._form, (made._vector,) = form, vector
+        return made
 
 
 def _padded(part: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:

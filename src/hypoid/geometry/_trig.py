@@ -14,26 +14,20 @@ import jax
 import jax.numpy as jnp
 
 from ._jax import Batch
+from ._polynomial import polynomial
 
 # pi/2 in three parts whose products with whole numbers up to 2**20 are exact
 _PARTS = (1.5707963267341256, 6.077100506303966e-11, 2.0222662487959506e-21)
-_SINE = tuple((-1) ** k / math.factorial(2 * k + 1) for k in range(8, -1, -1))
-_COSINE = tuple((-1) ** k / math.factorial(2 * k) for k in range(9, -1, -1))
-_TANGENT = (0.0208351, -0.0851330, 0.1801410, -0.3302995, 0.9998660)  # atan on [-1, 1] to 1e-5
-
-
-def _powers(coefficients: tuple[float, ...], x: Batch) -> Batch:
-    total = coefficients[0] * x + coefficients[1]
-    for c in coefficients[2:]:
-        total = total * x + c
-    return total
+_SINE = tuple((-1) ** k / math.factorial(2 * k + 1) for k in range(9))
+_COSINE = tuple((-1) ** k / math.factorial(2 * k) for k in range(10))
+_TANGENT = (0.9998660, -0.3302995, 0.1801410, -0.0851330, 0.0208351)  # atan on [-1, 1] to 1e-5
 
 
 def _sine_cosine(x: Batch) -> tuple[Batch, Batch]:
     quarter = jnp.round(x * (2.0 / math.pi))
     r = ((x - quarter * _PARTS[0]) - quarter * _PARTS[1]) - quarter * _PARTS[2]
     square = r * r
-    sine, cosine = r * _powers(_SINE, square), _powers(_COSINE, square)
+    sine, cosine = r * polynomial(_SINE, square), polynomial(_COSINE, square)
     turns = quarter - 4.0 * jnp.floor(0.25 * quarter)  # 0, 1, 2 or 3
     odd = (turns == 1.0) | (turns == 3.0)
     sine, cosine = jnp.where(odd, cosine, sine), jnp.where(odd, sine, cosine)
@@ -60,7 +54,7 @@ def unit_angle(cosine: Batch, sine: Batch) -> Batch:
     """The angle in (-pi, pi] of unit vectors (cosine, sine), rad."""
     steep = jnp.abs(sine) > jnp.abs(cosine)
     ratio = jnp.where(steep, cosine, sine) / jnp.where(steep, sine, cosine)
-    flat = ratio * _powers(_TANGENT, ratio * ratio)
+    flat = ratio * polynomial(_TANGENT, ratio * ratio)
     right = jnp.where(sine >= 0.0, 0.5 * math.pi, -0.5 * math.pi)
     angle = jnp.where(steep, right - flat, jnp.where(cosine >= 0.0, flat, flat + 2.0 * right))
     s, c = _sine_cosine(angle)

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import jax
 import jax.numpy as jnp
 
-from hypoid.geometry import Batch, Scalar, Vector, once, sine_cosine, turn_z
+from hypoid.geometry import Batch, Scalar, Vector, once, polynomial, sine_cosine, turn_z
 
 from ._cam import Cam, cam_roll
 from ._settings import ORDERS, MachineSettings
@@ -181,12 +181,9 @@ def _moving(axes: Axes, cradle_angle: Scalar, phi: Batch) -> tuple[object, ...]:
 
 def _powers(coefficients: Batch, phi: Batch) -> tuple[Batch, Batch]:
     """Value and derivative of c0 + c1 phi + ... at phi."""
-    last = coefficients.shape[0] - 1
-    value, slope = coefficients[last] + 0.0 * phi, 0.0 * phi
-    for k in range(last - 1, -1, -1):
-        slope = slope * phi + value
-        value = value * phi + coefficients[k]
-    return value, slope
+    terms = [coefficients[k] for k in range(coefficients.shape[0])]
+    slopes = [k * term for k, term in enumerate(terms)][1:]
+    return polynomial(terms, phi), polynomial(slopes, phi)
 
 
 def rotated(rows: Rotation, v: Vector) -> Vector:
