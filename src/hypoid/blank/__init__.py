@@ -27,6 +27,10 @@ from ._face_width import KlingelnbergFaceWidth as KlingelnbergFaceWidth
 from ._face_width import OerlikonFaceWidth as OerlikonFaceWidth
 from ._face_width import PinionFaceWidth as PinionFaceWidth
 from ._face_width import split_face_width as split_face_width
+from ._given import GivenBlank as GivenBlank
+from ._given import crown_point as crown_point
+from ._given import given_pair_blank as given_pair_blank
+from ._given import with_root_line as with_root_line
 from ._limits import PitchConeFault as PitchConeFault
 from ._pair_blank import blank_of_cones as blank_of_cones
 from ._pair_blank import pair_blank as pair_blank

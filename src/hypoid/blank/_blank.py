@@ -64,10 +64,10 @@ class MemberBlank:
     inner_dedendum: float  # h_fi
     face_angle: float  # delta_a
     root_angle: float  # delta_f
-    outer_spiral_angle: float  # beta_e
-    inner_spiral_angle: float  # beta_i
-    thickness: ToothThickness
-    top_land: TopLand
+    outer_spiral_angle: float | None  # beta_e
+    inner_spiral_angle: float | None  # beta_i
+    thickness: ToothThickness | None  # None, as below, where a given blank does not say
+    top_land: TopLand | None
 
     @property
     def addendum_angle(self) -> float:
@@ -161,28 +161,31 @@ class PairBlank:
     outer_transverse_module: float  # m_et2, m_ot in the 2022 paper
     limit_pressure_angle: float  # alpha_lim, ISO sign
     slope_angle: float  # nu
-    pressure_angle: float  # nominal, both sides
-    working_depth: float  # h_mw
-    clearance: float  # c
+    pressure_angle: float | None  # nominal, both sides
+    working_depth: float | None  # h_mw
+    clearance: float | None  # c
     cones: PitchCones
-    depths: MeanDepths
-    face_and_root: FaceAndRootCones
+    depths: MeanDepths | None
+    face_and_root: FaceAndRootCones | None
     pinion: MemberBlank
     wheel: MemberBlank
-    outer_pinion_readings: OuterPinionReadings
-    ratio_residual: float  # mm, condition (1) over z1 + z2
-    alignment_residual: float  # condition (2) over R_m1 R_m2
+    outer_pinion_readings: OuterPinionReadings | None
+    ratio_residual: float | None  # mm, condition (1) over z1 + z2
+    alignment_residual: float | None  # condition (2) over R_m1 R_m2
+    tangency_residual: float = 0.0  # rad, by which the pinion's pitch angle misses tangency
 
     @property
     def faults(self) -> tuple[BlankFault, ...]:
         """What makes the blank unusable although it computes; empty when nothing does."""
         found: list[BlankFault] = []
         least = MIN_TOP_LAND * self.mean_normal_module
-        if self.pinion.top_land.least < least:
+        lands = self.pinion.top_land, self.wheel.top_land
+        if lands[0] is not None and lands[0].least < least:
             found.append(BlankFault.POINTED_PINION)
-        if self.wheel.top_land.least < least:
+        if lands[1] is not None and lands[1].least < least:
             found.append(BlankFault.POINTED_WHEEL)
-        if self.pressure_angle - abs(self.limit_pressure_angle) < NEAR_LIMIT:
+        angle = self.pressure_angle
+        if angle is not None and angle - abs(self.limit_pressure_angle) < NEAR_LIMIT:
             found.append(BlankFault.NEAR_LIMIT_PRESSURE_ANGLE)
         return tuple(found)
 

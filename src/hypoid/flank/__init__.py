@@ -6,6 +6,11 @@ from ._chart import PitchCone as PitchCone
 from ._chart import chart as chart
 from ._cut import best_way as best_way
 from ._cut import cut_flank as cut_flank
+from ._cut import lowest_line as lowest_line
+from ._cut import recut as recut
+from ._cut import trimmed as trimmed
+from ._deviation import Deviation as Deviation
+from ._deviation import deviation as deviation
 from ._envelope import Surface as Surface
 from ._envelope import axial_radial_angle as axial_radial_angle
 from ._envelope import placed as placed

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
 from hypoid.cutter import EdgePiece
+from hypoid.geometry import horner
 from hypoid.machine import MachineSettings, Way, generator
 
-from ._chart import Border, PitchCone
+from ._chart import RESERVE, Border, PitchCone
 from ._envelope import Surface
 from ._flank import Flank, Side
 from ._locate import roots_near
@@ -72,4 +74,47 @@ def cut_flank(
             chosen = Surface(gen, branch, float(np.sign(tangential[k]) * wanted), way)
     return Flank(
         member, side, settings, pieces, chosen, cone, mirrored, start, toe, heel, tip, root
+    )
+
+
+def lowest_line(flank: Flank) -> Border:
+    """Line in the axial section through the lowest points of a flank's cut at toe and heel."""
+    ends = np.array([flank.toe, flank.heel])
+    low, high = np.asarray(flank.charts[flank.cut_pieces[-1]].bounds(ends)[0])
+    slope = float((high - low) / (flank.heel - flank.toe))
+    return Border(float(low) - slope * flank.toe, slope)
+
+
+def trimmed(flank: Flank) -> Flank:
+    """The same flank with its edge ended a little above the tooth's tip, where it reaches that far."""
+    name = flank.cut_pieces[0]
+    piece = flank.pieces[name]
+    distance = np.linspace(flank.toe, flank.heel, 5)
+    chart = flank.charts[name]
+    wanted = flank.tip.at(distance) + RESERVE
+    x, y = chart.coordinates(distance, wanted)
+    s = np.asarray(horner(chart.s, x, np.clip(y, -1.0, 1.0)))
+    high = float(s.max())
+    if not (np.isfinite(high) and float(piece.low) < high < float(piece.high)):
+        return flank
+    return replace(flank, pieces={**flank.pieces, name: replace(piece, high=high)})
+
+
+def recut(flank: Flank, settings: MachineSettings) -> Flank:
+    """The flank that the same edge cuts under other settings."""
+    face_milled = flank.surface.way in ("cutter", "form")
+    start = None if face_milled else flank.theta_start
+    return cut_flank(
+        flank.member,
+        flank.side,
+        settings,
+        flank.pieces,
+        flank.cone,
+        mirrored=flank.mirrored,
+        toe=flank.toe,
+        heel=flank.heel,
+        tip=flank.tip,
+        root=flank.root,
+        way=best_way(settings, face_milled),
+        theta_start=start,
     )

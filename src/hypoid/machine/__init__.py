@@ -2,6 +2,7 @@
 
 from ._cam import Cam as Cam
 from ._cam import cam_roll as cam_roll
+from ._cradle_machine import Workpiece as Workpiece
 from ._generator import Meshing as Meshing
 from ._generator import Placed as Placed
 from ._generator import SweptEdge as SweptEdge
@@ -16,6 +17,9 @@ from ._generator import to_cradle as to_cradle
 from ._meshed import meshed as meshed
 from ._pose import Generator as Generator
 from ._pose import generator as generator
+from ._registry import MACHINES as MACHINES
+from ._registry import Machine as Machine
+from ._registry import constants_of as constants_of
 from ._revolution import mesh_cutter as mesh_cutter
 from ._revolution import mesh_straight as mesh_straight
 from ._settings import MachineSettings as MachineSettings

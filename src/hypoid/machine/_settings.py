@@ -38,6 +38,9 @@ class Motions:
         return tuple(f.name for f in fields(self) if any(getattr(self, f.name)))
 
 
+NO_MOTIONS = Motions()
+
+
 @dataclass(frozen=True)
 class MachineSettings:
     """Basic settings of one flank; mm and rad, signs of the generator chain.
@@ -59,7 +62,7 @@ class MachineSettings:
     sliding_base: float = 0.0  # dX_b
     helical_motion: float = 0.0  # h, mm/rad
     modified_roll: Sequence[float] = ()
-    motions: Motions = Motions()
+    motions: Motions = NO_MOTIONS
     cam: Cam | None = None  # turns the work in place of ratio_of_roll and modified_roll
     generated: bool = True  # False: form cut (Formate, Helixform), the cradle stands at phi = 0
     cutter_lead: float = (

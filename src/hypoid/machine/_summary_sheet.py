@@ -7,9 +7,10 @@ the pitch apex (chain: to the crossing point). A test shows that both are the sa
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from ._settings import MachineSettings
+from ._cam import Cam
+from ._settings import NO_MOTIONS, MachineSettings, Motions
 
 
 @dataclass(frozen=True)
@@ -28,6 +29,10 @@ class SummarySheet:
     roll_to_blade_ratio: float  # m_b
     helical_motion: float = 0.0  # mm/rad
     modified_roll: tuple[float, ...] = ()
+    motions: Motions = NO_MOTIONS
+    cam: Cam | None = None
+    generated: bool = True
+    cutter_lead: float = 0.0  # mm/rad
 
 
 def to_sheet(settings: MachineSettings, apex_beyond_crossing: float) -> SummarySheet:
@@ -45,6 +50,10 @@ def to_sheet(settings: MachineSettings, apex_beyond_crossing: float) -> SummaryS
         roll_to_blade_ratio=settings.roll_to_blade_ratio,
         helical_motion=settings.helical_motion,
         modified_roll=tuple(settings.modified_roll),
+        motions=_other_sign(settings.motions),
+        cam=settings.cam,
+        generated=settings.generated,
+        cutter_lead=settings.cutter_lead,
     )
 
 
@@ -63,4 +72,13 @@ def from_sheet(sheet: SummarySheet, apex_beyond_crossing: float) -> MachineSetti
         roll_to_blade_ratio=sheet.roll_to_blade_ratio,
         helical_motion=sheet.helical_motion,
         modified_roll=sheet.modified_roll,
+        motions=_other_sign(sheet.motions),
+        cam=sheet.cam,
+        generated=sheet.generated,
+        cutter_lead=sheet.cutter_lead,
     )
+
+
+def _other_sign(motions: Motions) -> Motions:
+    """Motions with the other sign of the blank offset."""
+    return replace(motions, blank_offset=tuple(-c for c in motions.blank_offset))

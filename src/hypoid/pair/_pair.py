@@ -2,26 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, TypeAlias
 
 from hypoid.blank import MemberBlank, PairBlank
-from hypoid.cutter import FaceHobHead
+from hypoid.cutter import FaceHobHead, FaceMillHead
 from hypoid.flank import Flank, Side
 from hypoid.machine import SummarySheet, to_sheet
 
+Head: TypeAlias = FaceHobHead | FaceMillHead
 Direction = Literal["drive", "coast"]
 
 
 @dataclass(frozen=True, eq=False)
 class Member:
-    """A gear: its blank, the head that cuts it and its two active flanks."""
+    """A gear: its blank, the heads that cut it and its two active flanks."""
 
     blank: MemberBlank
-    head: FaceHobHead
+    heads: Mapping[Side, Head]  # one and the same where one head cuts both flanks
     concave: Flank
     convex: Flank
+
+    @property
+    def head(self) -> Head:
+        """The head that cuts the concave flank, and in most methods the convex one, too."""
+        return self.heads["concave"]
 
     @property
     def name(self) -> str:

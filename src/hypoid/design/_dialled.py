@@ -1,0 +1,58 @@
+"""A pair on a physical machine: its dials, and what setting them to their increments does to the flanks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from hypoid.flank import Deviation, Flank, deviation, recut
+from hypoid.geometry import DesignError, Problem
+from hypoid.machine import MACHINES, Machine, Workpiece
+from hypoid.pair import GearPair, Member
+
+
+@dataclass(frozen=True)
+class Dialled:
+    """One flank on one machine."""
+
+    flank: Flank
+    dials: Any  # exact; mm, rad and teeth
+    rounded: Any  # on the dials' increments
+    deviation: Deviation  # of the flank that the rounded dials cut
+
+
+def machine_named(name: str) -> Machine:
+    """A machine by name; DesignError if there is none."""
+    if name not in MACHINES:
+        known = ", ".join(MACHINES)
+        raise DesignError([Problem("--machine", name, f"one of {known}", "--machine gleason-122")])
+    return MACHINES[name]
+
+
+def dialled(pair: GearPair, machine: str) -> tuple[Dialled, ...]:
+    """The four flanks of a pair on a machine.
+
+    Raises
+    ------
+    DesignError
+        With everything that the settings ask for and the machine cannot do.
+    """
+    on, problems, done = machine_named(machine), [], []
+    for member in (pair.pinion, pair.wheel):
+        for flank in (member.concave, member.convex):
+            try:
+                done.append(_dialled(on, member, flank))
+            except DesignError as error:
+                problems += error.problems
+    if problems:
+        raise DesignError(problems)
+    return tuple(done)
+
+
+def _dialled(machine: Machine, member: Member, flank: Flank) -> Dialled:
+    path = f"{member.name}.{flank.side}.settings"
+    work = Workpiece(member.teeth, member.blank.hand, machine.constants, path)
+    dials = machine.from_basic(flank.settings, work)
+    rounded = machine.rounded(dials)
+    cut = recut(flank, machine.to_basic(rounded, work))
+    return Dialled(flank, dials, rounded, deviation(flank, cut))

@@ -1,0 +1,72 @@
+"""What a summary sheet gives: blank, cutters and machine settings of every flank, in mm and rad."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+from hypoid.blank import GivenBlank
+
+from ._spec import Assumption, Hand
+
+Method = Literal[
+    "generated", "formate", "helixform", "modified-roll", "tilt", "duplex", "helical-duplex"
+]
+Curve = Literal["straight", "circular-arc", "parabola"]
+
+
+@dataclass(frozen=True)
+class BladeSpec:
+    """One blade of a face-mill cutter, or one side of a cup-shaped wheel."""
+
+    point_radius: float  # where the extended edge meets the plane of the tips
+    angle: float
+    edge_radius: float = 0.0
+    land: float | None = None  # half the point width; None: the cutter cuts one side alone
+    height: float | None = None  # along the axis; None: as long as the tooth needs
+    curve: Curve = "straight"
+    curve_radius: float = 0.0  # circular-arc: positive crowns the tooth
+    curve_coefficient: float = 0.0  # parabola, 1/mm
+    reference_height: float = 0.0  # above the tips, where a curved blade has its angle
+    toprem: tuple[float, float] | None = None  # angle, height
+    flankrem: tuple[float, float, float] | None = None  # height, angle, coefficient
+
+
+@dataclass(frozen=True)
+class FlankSpec:
+    """How one flank is cut."""
+
+    method: Method
+    machine: str  # "basic", or a physical machine by name
+    dials: Mapping[str, Any]  # that machine's dials by name: numbers, tooth counts, motions
+    blade: BladeSpec
+
+
+@dataclass(frozen=True)
+class MemberSpec:
+    """One member of a summary-sheet design."""
+
+    teeth: int
+    hand: Hand
+    blank: GivenBlank
+    concave: FlankSpec
+    convex: FlankSpec
+
+
+@dataclass(frozen=True)
+class SummarySheetSpec:
+    """A pair whose blanks, cutters and settings are all given."""
+
+    title: str
+    source: str
+    assumed: tuple[Assumption, ...]
+    shaft_angle: float
+    offset: float
+    pinion: MemberSpec
+    wheel: MemberSpec
+    marking_thickness: float  # mm, of the virtual marking compound
+    # By machine: what each machine of its kind has its own of, as the file gives it.
+    machine_constants: Mapping[str, Mapping[str, Any]] = field(
+        default_factory=dict[str, Mapping[str, Any]]
+    )
