@@ -181,7 +181,9 @@ def _member(job: Job, cuts: dict[Side, tuple[MachineSettings, FaceMillHead]]) ->
         mean = -float(np.mean([line.at(blank.mean_cone_distance) for line in lines]))
         slope = float(np.mean([line.slope for line in lines]))
         blank = with_root_line(blank, mean, blank.pitch_angle + math.atan(slope))
-    heads = {side: cuts[side][1] for side in SIDES}
+    heads: dict[Side, FaceMillHead] = {side: cuts[side][1] for side in SIDES}
+    if heads["convex"] == heads["concave"]:
+        heads["convex"] = heads["concave"]
     return Member(blank, heads, flanks["concave"], flanks["convex"])
 
 

@@ -1,5 +1,7 @@
 """Flanks: the envelope of a swept edge, its pieces, and points of it on demand."""
 
+from ._angles import FlankAngles as FlankAngles
+from ._angles import flank_angles as flank_angles
 from ._chart import Border as Border
 from ._chart import Chart as Chart
 from ._chart import PitchCone as PitchCone

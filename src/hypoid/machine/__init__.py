@@ -25,6 +25,10 @@ from ._revolution import mesh_straight as mesh_straight
 from ._settings import MachineSettings as MachineSettings
 from ._settings import Motions as Motions
 from ._settings import chain as chain
+from ._six_axis import AxisTable as AxisTable
+from ._six_axis import BasicFit as BasicFit
+from ._six_axis import axis_table as axis_table
+from ._six_axis import basic_of as basic_of
 from ._summary_sheet import SummarySheet as SummarySheet
 from ._summary_sheet import from_sheet as from_sheet
 from ._summary_sheet import to_sheet as to_sheet

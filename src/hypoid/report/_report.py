@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
+from hypoid.cutter import FaceMillHead
 from hypoid.pair import GearPair
 
 from ._figures_blank import blank_figure
@@ -22,6 +23,7 @@ from ._figures_contact import (
     pattern_figure,
 )
 from ._figures_cutter import cutter_figure
+from ._figures_mill import mill_figure
 from ._page import box, drawing, note, page
 from ._progress import Progress, silent
 from ._results import STEPS_A_DIRECTION, Results, results
@@ -90,11 +92,11 @@ def _sections(found: Results) -> list[tuple[str, str]]:
             "Blank",
             drawing(to_svg(blank_figure(pair)), "Axial sections to scale; chain-dotted: pitch cones.")
             + f'<div class="side">{blank_table(pair)}{pair_table(pair)}</div>'
-            + note("Two readings of the pinion's heel: ISO 23509 has a_p where the 2022 paper's numbers need a."),
+            + _heel_note(pair),
         ),
         (
             "Cutter",
-            drawing(to_svg(cutter_figure(pair)), "Face-hob head and blade profiles; flat land, edge arc, straight edge, relief."),
+            _cutter(pair),
         ),
         (
             "Machine settings",
@@ -124,6 +126,22 @@ def _sections(found: Results) -> list[tuple[str, str]]:
             + vh_table(result),
         ))  # fmt: skip
     return shown
+
+
+def _heel_note(pair: GearPair) -> str:
+    if pair.blank.outer_pinion_readings is None:
+        return ""
+    return note(
+        "Two readings of the pinion's heel: ISO 23509 has a_p where the 2022 paper's numbers need a."
+    )
+
+
+def _cutter(pair: GearPair) -> str:
+    if isinstance(pair.pinion.head, FaceMillHead):
+        words = "Face-mill blades in the plane of the cutter axis, tips up; orange: edge arc."
+        return drawing(to_svg(mill_figure(pair)), words)
+    words = "Face-hob head and blade profiles; flat land, edge arc, straight edge, relief."
+    return drawing(to_svg(cutter_figure(pair)), words)
 
 
 def _findings(found: Results) -> str:
