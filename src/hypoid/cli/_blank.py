@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import asdict
-from math import degrees
+from math import degrees, isnan
 from typing import TYPE_CHECKING, Any
 
 from ._options import AsJson, DesignPath
@@ -27,15 +28,14 @@ def blank(file: DesignPath, /, *, json: AsJson = False) -> int:
     else:
         write_table(spec.title, [""], ((key, [value]) for key, value in tables["pair"].items()))
         write_members("Members", {name: tables[name] for name in ("pinion", "wheel")})
-        for name, reading in tables["outer_pinion_readings"].items():
+        for name, reading in tables.get("outer_pinion_readings", {}).items():
             write_table(f"Pinion heel, {name}", [""], ((k, [v]) for k, v in reading.items()))
     return report_faults(faults)
 
 
 def blank_tables(blank: PairBlank) -> dict[str, dict[str, Any]]:
     """The blank under the names that scripts rely on; lengths in mm, angles in deg."""
-    readings = blank.outer_pinion_readings
-    return {
+    tables: dict[str, dict[str, Any]] = {
         "pair": {
             "shaft_angle_deg": degrees(blank.shaft_angle),
             "offset_mm": blank.offset,
@@ -48,10 +48,14 @@ def blank_tables(blank: PairBlank) -> dict[str, dict[str, Any]]:
             "offset_angle_pitch_plane_deg": degrees(blank.cones.offset_angle_pitch_plane),
             "working_depth_mm": blank.working_depth,
             "clearance_mm": blank.clearance,
+            "pitch_cones_miss_tangency_by_deg": degrees(blank.tangency_residual),
         },
         "pinion": _member(blank.pinion),
         "wheel": _member(blank.wheel),
-        "outer_pinion_readings": {
+    }
+    readings = blank.outer_pinion_readings
+    if readings is not None:
+        tables["outer_pinion_readings"] = {
             name: {
                 "source": reading.source,
                 "outer_cone_distance_mm": reading.outer_cone_distance,
@@ -61,8 +65,8 @@ def blank_tables(blank: PairBlank) -> dict[str, dict[str, Any]]:
                 ("conforming", readings.conforming),
                 ("printed_2022", readings.printed_2022),
             )
-        },
-    }
+        }
+    return tables
 
 
 _ANGLES = (
@@ -79,6 +83,11 @@ _LENGTHS = (
 
 
 def _member(member: MemberBlank) -> dict[str, Any]:
-    angles = {f"{name}_deg": degrees(getattr(member, name)) for name in _ANGLES}
-    lengths = {f"{name}_mm": getattr(member, name) for name in _LENGTHS}
+    """Every number of a member; None where a given blank does not say it."""
+    angles = {f"{name}_deg": _known(getattr(member, name), degrees) for name in _ANGLES}
+    lengths = {f"{name}_mm": _known(getattr(member, name)) for name in _LENGTHS}
     return {"teeth": member.teeth, "hand": member.hand, **angles, **lengths}
+
+
+def _known(value: float | None, shown: Callable[[float], float] = float) -> float | None:
+    return None if value is None or isnan(value) else shown(value)

@@ -6,7 +6,12 @@ Names that need JAX are loaded when first asked for.
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from ._blank import Spec as Spec
 from ._blank import spec_blank as spec_blank
+from ._sheet_spec import BladeSpec as BladeSpec
+from ._sheet_spec import FlankSpec as FlankSpec
+from ._sheet_spec import MemberSpec as MemberSpec
+from ._sheet_spec import SummarySheetSpec as SummarySheetSpec
 from ._spec import Assumption as Assumption
 from ._spec import ExactFaceHobbedSpec as ExactFaceHobbedSpec
 from ._spec import Hand as Hand
@@ -14,13 +19,20 @@ from ._spec import SettingValue as SettingValue
 from ._spec import TipRelief as TipRelief
 
 if TYPE_CHECKING:
-    from ._exact_face_hobbed import build as build
+    from ._build import build as build
+    from ._dialled import Dialled as Dialled
+    from ._dialled import dialled as dialled
     from ._exact_face_hobbed import exact_settings as exact_settings
 
-_LAZY = ("build", "exact_settings")
+_LAZY = {
+    "build": "_build",
+    "Dialled": "_dialled",
+    "dialled": "_dialled",
+    "exact_settings": "_exact_face_hobbed",
+}
 
 
 def __getattr__(name: str) -> Any:
     if name in _LAZY:
-        return getattr(import_module("._exact_face_hobbed", __name__), name)
+        return getattr(import_module(f".{_LAZY[name]}", __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

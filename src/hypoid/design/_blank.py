@@ -1,20 +1,25 @@
-"""The blank that a design asks for."""
+"""The blank that a design asks for: quick, no JAX needed."""
 
 from __future__ import annotations
 
-from hypoid.blank import PairBlank, pair_blank
+from hypoid.blank import PairBlank, given_pair_blank, pair_blank
 
+from ._sheet_spec import SummarySheetSpec
 from ._spec import ExactFaceHobbedSpec
 
+Spec = ExactFaceHobbedSpec | SummarySheetSpec
 
-def spec_blank(spec: ExactFaceHobbedSpec) -> PairBlank:
-    """The blank alone: quick, no JAX needed.
+
+def spec_blank(spec: Spec) -> PairBlank:
+    """The blank alone, as far as the design gives it.
 
     Raises
     ------
     DesignError
         Where there are no pitch cones, with the violated limit.
     """
+    if isinstance(spec, SummarySheetSpec):
+        return sheet_blank(spec)
     return pair_blank(
         z1=spec.pinion_teeth,
         z2=spec.wheel_teeth,
@@ -30,4 +35,16 @@ def spec_blank(spec: ExactFaceHobbedSpec) -> PairBlank:
         clearance_factor=spec.clearance_factor,
         pinion_hand=spec.pinion_hand,
         pressure_angle=spec.pressure_angle,
+    )
+
+
+def sheet_blank(spec: SummarySheetSpec) -> PairBlank:
+    """The blank of a summary sheet; dedenda are NaN where its cutters say them."""
+    return given_pair_blank(
+        shaft_angle=spec.shaft_angle,
+        offset=spec.offset,
+        teeth=(spec.pinion.teeth, spec.wheel.teeth),
+        pinion=spec.pinion.blank,
+        wheel=spec.wheel.blank,
+        pinion_hand=spec.pinion.hand,
     )

@@ -154,10 +154,11 @@ def _member(
             way=best_way(settings, revolution=False),
         )
 
-    return Member(member, head, flank("concave"), flank("convex"))
+    heads: dict[Side, Any] = {"concave": head, "convex": head}
+    return Member(member, heads, flank("concave"), flank("convex"))
 
 
-def build(spec: ExactFaceHobbedSpec) -> GearPair:
+def build_exact(spec: ExactFaceHobbedSpec) -> GearPair:
     """The pair of a design: blank, heads, settings and flanks.
 
     Raises

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from hypoid.blank import MemberBlank, PairBlank, given_pair_blank, with_root_line
+from hypoid.blank import MemberBlank, with_root_line
 from hypoid.cutter import (
     BladeCurve,
     CircularProfile,
@@ -35,6 +35,7 @@ from hypoid.machine import (
 )
 from hypoid.pair import Assumption, GearPair, Member
 
+from ._blank import sheet_blank
 from ._sheet_spec import BladeSpec, FlankSpec, MemberSpec, SummarySheetSpec
 
 SIDES: tuple[Side, Side] = ("concave", "convex")
@@ -92,18 +93,6 @@ def build_milled(spec: SummarySheetSpec) -> GearPair:
         pinion=pinion,
         wheel=wheel,
         marking_thickness=spec.marking_thickness,
-    )
-
-
-def sheet_blank(spec: SummarySheetSpec) -> PairBlank:
-    """The blank alone, as far as the sheet gives it."""
-    return given_pair_blank(
-        shaft_angle=spec.shaft_angle,
-        offset=spec.offset,
-        teeth=(spec.pinion.teeth, spec.wheel.teeth),
-        pinion=spec.pinion.blank,
-        wheel=spec.wheel.blank,
-        pinion_hand=spec.pinion.hand,
     )
 
 

@@ -75,7 +75,7 @@ def pair_table(pair: GearPair) -> str:
         ("limit pressure angle [deg]", degrees(blank.limit_pressure_angle)),
         ("slope angle of the blades [deg]", degrees(blank.slope_angle)),
     ]
-    for name in ("conforming", "printed_2022"):
+    for name in ("conforming", "printed_2022") if readings is not None else ():
         reading = getattr(readings, name)
         rows.append((f"pinion R_e1 [mm], {reading.source}", reading.outer_cone_distance))
         rows.append((f"pinion d_e1 [mm], {reading.source}", reading.outer_pitch_diameter))
@@ -94,6 +94,7 @@ _SHEET: tuple[tuple[str, str, bool], ...] = (
     ("velocity ratio (ratio of roll)", "ratio_of_roll", False),
     ("roll-to-blade ratio", "roll_to_blade_ratio", False),
     ("helical motion [mm/rad]", "helical_motion", False),
+    ("advance of the cutter [mm/rad]", "cutter_lead", False),
 )
 
 
@@ -109,7 +110,16 @@ def settings_table(pair: GearPair) -> str:
         ", ".join(f"{c:g}" for c in sheet.modified_roll) or "none" for sheet in columns.values()
     ]
     rows.append(("modified roll c2, c3, ...", *roll))
+    rows.append(
+        ("cutting", *("generated" if s.generated else "form cut" for s in columns.values()))
+    )
+    rows.append(("axes that move", *(_moving(sheet) for sheet in columns.values())))
     return table(("", *columns), rows)
+
+
+def _moving(sheet: SummarySheet) -> str:
+    moved = [name.replace("_", " ") for name in sheet.motions.moved()]
+    return ", ".join([*moved, *(["work roll by a cam"] if sheet.cam else [])]) or "none"
 
 
 def contact_table(results: Sequence[DirectionResult]) -> str:
