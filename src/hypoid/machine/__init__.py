@@ -22,6 +22,8 @@ from ._registry import Machine as Machine
 from ._registry import constants_of as constants_of
 from ._revolution import mesh_cutter as mesh_cutter
 from ._revolution import mesh_straight as mesh_straight
+from ._roll_series import RollSeries as RollSeries
+from ._roll_series import roll_series as roll_series
 from ._settings import MachineSettings as MachineSettings
 from ._settings import Motions as Motions
 from ._settings import chain as chain
