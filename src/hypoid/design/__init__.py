@@ -7,10 +7,12 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from ._blank import Spec as Spec
+from ._blank import sheet_blank as sheet_blank
 from ._blank import spec_blank as spec_blank
 from ._sheet_spec import BladeSpec as BladeSpec
 from ._sheet_spec import FlankSpec as FlankSpec
 from ._sheet_spec import MemberSpec as MemberSpec
+from ._sheet_spec import Method as Method
 from ._sheet_spec import SummarySheetSpec as SummarySheetSpec
 from ._spec import Assumption as Assumption
 from ._spec import ExactFaceHobbedSpec as ExactFaceHobbedSpec
@@ -21,13 +23,17 @@ from ._spec import TipRelief as TipRelief
 if TYPE_CHECKING:
     from ._build import build as build
     from ._dialled import Dialled as Dialled
+    from ._dialled import axis_tables as axis_tables
     from ._dialled import dialled as dialled
+    from ._dialled import machine_named as machine_named
     from ._exact_face_hobbed import exact_settings as exact_settings
 
 _LAZY = {
+    "axis_tables": "_dialled",
     "build": "_build",
     "Dialled": "_dialled",
     "dialled": "_dialled",
+    "machine_named": "_dialled",
     "exact_settings": "_exact_face_hobbed",
 }
 

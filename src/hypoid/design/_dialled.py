@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from hypoid.flank import Deviation, Flank, deviation, recut
+import numpy as np
+
+from hypoid.flank import Deviation, Flank, deviation, recut, roll_range
 from hypoid.geometry import DesignError, Problem
-from hypoid.machine import MACHINES, Machine, Workpiece
+from hypoid.machine import MACHINES, AxisTable, Machine, Workpiece, axis_table
 from hypoid.pair import GearPair, Member
 
 
@@ -56,3 +58,22 @@ def _dialled(machine: Machine, member: Member, flank: Flank) -> Dialled:
     rounded = machine.rounded(dials)
     cut = recut(flank, machine.to_basic(rounded, work))
     return Dialled(flank, dials, rounded, deviation(flank, cut))
+
+
+def axis_tables(pair: GearPair, positions: int) -> list[tuple[Flank, AxisTable]]:
+    """Six-axis tables of the four flanks over the roll that cuts them, in so many positions.
+
+    Raises
+    ------
+    DesignError
+        For fewer than two positions.
+    """
+    if positions < 2:
+        given = Problem("--positions", str(positions), "at least 2", "--positions 21")
+        raise DesignError([given])
+    tables: list[tuple[Flank, AxisTable]] = []
+    for flank in pair.flanks():
+        low, high = roll_range(flank)
+        roll = np.linspace(low, high, positions)
+        tables.append((flank, axis_table(flank.settings, roll)))
+    return tables

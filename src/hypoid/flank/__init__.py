@@ -10,6 +10,7 @@ from ._cut import best_way as best_way
 from ._cut import cut_flank as cut_flank
 from ._cut import lowest_line as lowest_line
 from ._cut import recut as recut
+from ._cut import roll_range as roll_range
 from ._cut import trimmed as trimmed
 from ._deviation import Deviation as Deviation
 from ._deviation import deviation as deviation

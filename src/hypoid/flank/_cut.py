@@ -118,3 +118,15 @@ def recut(flank: Flank, settings: MachineSettings) -> Flank:
         way=best_way(settings, face_milled),
         theta_start=start,
     )
+
+
+def roll_range(flank: Flank) -> tuple[float, float]:
+    """Least and greatest cradle angle, rad, at which flank and fillet are cut, toe to heel."""
+    ends: list[float] = [0.0]
+    for name in flank.cut_pieces:
+        chart, piece = flank.charts[name], flank.pieces[name]
+        x, y = (g.ravel() for g in np.meshgrid(np.linspace(-1, 1, 9), np.linspace(-1, 1, 9)))
+        s, turn = np.asarray(horner(chart.s, x, y)), np.asarray(horner(chart.theta, x, y))
+        phi = roots_near(flank.surface, piece, s, turn)[0]
+        ends += [float(np.nanmin(phi)), float(np.nanmax(phi))]
+    return min(ends), max(ends)

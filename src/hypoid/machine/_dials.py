@@ -44,6 +44,15 @@ class Dial:
                 value = self.low
         return self.low - SLACK <= value <= self.high + SLACK
 
+    def words(self, value: Any) -> str:
+        """A reading as a person writes it."""
+        if self.kind == "gears":
+            return (
+                " x ".join(f"{a}/{b}" for a, b in zip(value[::2], value[1::2], strict=True))
+                or "none"
+            )
+        return shown(value, self.kind)
+
     def expected(self) -> str:
         """The admissible range in words."""
         if self.kind == "direction":
