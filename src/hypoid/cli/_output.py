@@ -11,6 +11,7 @@ from typing import Any
 from hypoid.geometry import Problem
 
 DONE, FAULTY, BAD_INPUT = 0, 1, 2
+WIDE = 240  # columns: a number cut short is worse than a line too long
 
 
 def say(words: str) -> None:
@@ -59,7 +60,7 @@ def write_table(
         table.add_column(column.replace(" ", "\n"), justify="right", no_wrap=True)
     for name, values in rows:
         table.add_row(name, *(f"{v:.6g}" if isinstance(v, float) else str(v) for v in values))
-    console = Console(file=sys.stdout, highlight=False, markup=False, soft_wrap=True)
+    console = Console(file=sys.stdout, highlight=False, markup=False, soft_wrap=True, width=WIDE)
     with console.capture() as text:  # printed by us: rich has its own way with a broken pipe
         console.print(table)
     print(text.get(), end="")

@@ -145,12 +145,12 @@ def _rounding(one: Dialled) -> dict[str, Any]:
 
 
 def _six_axis(pair: GearPair, positions: int, json: bool) -> dict[str, Any]:
-    """Axis tables by member and side over the roll that cuts each flank."""
+    """Axis tables by member and side over the roll that cuts each flank, in the member's own hand."""
     from hypoid.design import axis_tables
 
     tables: dict[str, Any] = {"machine": SIX_AXIS, "pinion": {}, "wheel": {}}
     for flank, table in axis_tables(pair, positions):
-        columns = _axis_columns(table)
+        columns = _axis_columns(table, -1.0 if flank.mirrored else 1.0)
         tables[flank.member][flank.side] = columns
         if not json:
             rows = zip(*columns.values(), strict=True)
@@ -159,9 +159,11 @@ def _six_axis(pair: GearPair, positions: int, json: bool) -> dict[str, Any]:
     return tables
 
 
-def _axis_columns(table: AxisTable) -> dict[str, Any]:
-    values = (table.roll, table.x, table.y, table.z, table.a, table.b, table.c)
-    scale = 180.0 / 3.141592653589793
+def _axis_columns(table: AxisTable, hand: float) -> dict[str, Any]:
+    """Columns by name; the other hand is the mirror image: roll, Y, A and C change sign."""
+    roll, y, a, c = (hand * v for v in (table.roll, table.y, table.a, table.c))
+    values = (roll, table.x, y, table.z, a, table.b, c)
+    scale = degrees(1.0)
     return {
         name: v * scale if name.endswith("_deg") else v
         for name, v in zip(AXES, values, strict=True)

@@ -26,7 +26,7 @@ class Dialled:
 def machine_named(name: str) -> Machine:
     """A machine by name; DesignError if there is none."""
     if name not in MACHINES:
-        known = ", ".join(MACHINES)
+        known = ", ".join(["basic", *MACHINES, "six-axis"])
         raise DesignError([Problem("--machine", name, f"one of {known}", "--machine gleason-122")])
     return MACHINES[name]
 
