@@ -75,7 +75,9 @@ def test_points_at_z_and_rho(
     flank = next(f for f in pair.flanks() if f.name == name)
     rng = np.random.default_rng(2)
     distance = rng.uniform(flank.toe, flank.heel, POINTS)
-    z, rho = flank.cone.axial_radial(distance, rng.uniform(flank.root.at(0.0) + 0.05, flank.tip.at(0.0), POINTS))
+    z, rho = flank.cone.axial_radial(
+        distance, rng.uniform(flank.root.at(0.0) + 0.05, flank.tip.at(0.0), POINTS)
+    )
     first = _timed(lambda: flank.at(z, rho))
     benchmark.pedantic(flank.at, (z, rho), rounds=5)
     assert flank.at(z[:1000], rho[:1000]).ok.all()

@@ -130,7 +130,7 @@ def test_examples_are_copied_and_work(hypoid: Any, tmp_path: Path) -> None:
 
 
 def test_schema_is_written_for_editors(hypoid: Any) -> None:
-    assert json.loads(hypoid("examples", "--schema")[1])["title"] == "DesignFile"
+    assert json.loads(hypoid("examples", "--schema")[1])["title"] == "Hypoid design file"
 
 
 def test_help_names_every_command(hypoid: Any) -> None:

@@ -6,13 +6,13 @@ Names that need NumPy are loaded when first asked for.
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from ._design_file import json_schema as json_schema
 from ._examples import example_files as example_files
 from ._quantity import Kind as Kind
 from ._quantity import QuantityError as QuantityError
 from ._quantity import parse as parse
 from ._read import parse_spec as parse_spec
 from ._read import read_spec as read_spec
+from ._schema import json_schema as json_schema
 from ._write import write_text as write_text
 
 if TYPE_CHECKING:

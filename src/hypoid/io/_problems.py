@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 from difflib import get_close_matches
-from typing import Any, get_args
+from typing import get_origin
 
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
@@ -14,142 +14,131 @@ from pydantic_core import ErrorDetails
 from hypoid.geometry import Problem
 
 from ._design_file import DesignFile
-from ._quantity import QuantityError, parse
+from ._design_rules import design_rules
+from ._document import Document, Location, did_you_mean, path_of, shown, toml, value_at
+from ._keys import DesignTable, keys_of, table_of
+from ._sheet_file import SummarySheetFile
+from ._sheet_rules import sheet_rules
 
-Location = tuple[int | str, ...]
+
+@dataclass(frozen=True)
+class Form:
+    """One kind of design file: its tables, and what ties their keys together."""
+
+    model: type[DesignTable]
+    rules: Callable[[Document], Iterator[Problem]]
 
 
-def problems_of(document: Mapping[str, Any]) -> tuple[Problem, ...]:
+DESIGNED = Form(DesignFile, design_rules)
+SHEET = Form(SummarySheetFile, sheet_rules)
+
+
+def form_of(document: Document) -> Form | Problem:
+    """Which kind of design file this is, or why it is none."""
+    if "cutting" in document:
+        return DESIGNED
+    members = {name: value_at(document, (name,)) for name in ("pinion", "wheel")}
+    if any(isinstance(table, Mapping) and "blank" in table for table in members.values()):
+        return SHEET
+    words = [str(key) for table in members.values() if isinstance(table, Mapping) for key in table]
+    near = [(w, f"{p}.{w}") for p, t in members.items() if isinstance(t, Mapping) for w in t]
+    hint = next((w for w in document if get_close_matches(w, ["cutting"], cutoff=0.75)), "")
+    hint = f"; is [{hint}] meant to be [cutting]?" if hint else ""
+    for word in get_close_matches("blank", words, n=1, cutoff=0.75):
+        where = next(path for name, path in near if name == word)
+        hint = f"; is [{where}] meant to be [{where.split('.')[0]}.blank]?"
+    expected = (
+        "[cutting], for a pair that the program designs, or [pinion.blank] and [wheel.blank], "
+        "for a summary sheet" + hint
+    )
+    return Problem("cutting", "neither [cutting] nor a blank", expected, _EXAMPLE)
+
+
+_EXAMPLE = toml({"method": "exact-face-hobbed", "cutter_radius": "100 mm"}).join(("cutting = ", ""))
+
+
+def problems_of(document: Document, form: Form) -> tuple[Problem, ...]:
     """Every fault of a parsed design file, key by key and between keys; none for a good one."""
     try:
-        DesignFile.model_validate(document)
+        form.model.model_validate(document)
         faults: list[Problem] = []
     except ValidationError as error:
-        faults = [_problem(detail, document) for detail in error.errors(include_url=False)]
+        found = error.errors(include_url=False)
+        faults = [_problem(detail, document, form.model) for detail in found]
     known = {fault.path for fault in faults}
-    return (*faults, *(p for p in _between_keys(document) if p.path not in known))
+    between = (*form.rules(document), *_unknown_assumptions(document))
+    return (*faults, *(p for p in between if p.path not in known))
 
 
-def _problem(error: ErrorDetails, document: Mapping[str, Any]) -> Problem:
-    loc, path = error["loc"], _path(error["loc"])
+def _problem(error: ErrorDetails, document: Document, model: type[BaseModel]) -> Problem:
+    loc, path = error["loc"], path_of(error["loc"])
     if error["type"] == "extra_forbidden":
-        keys = _keys(loc[:-1])
+        keys = _keys(model, loc[:-1])
         near = get_close_matches(str(loc[-1]), keys, n=1)
-        expected = f"one of {', '.join(keys)}" + (f"; did you mean {near[0]}?" if near else "")
+        expected = f"one of {', '.join(keys)}{did_you_mean(str(loc[-1]), list(keys))}"
         key = (near or list(keys))[0]
         return Problem(path, "an unknown key", expected, _line(key, keys[key]))
-    field = _field(loc)
-    expected, example = field.description or "", _line(_key_of(loc), field)
+    name, field = _field(model, loc)
+    expected, example = field.description or "", _line(name, field)
     if error["type"] == "quantity":
         context = error.get("ctx", {})
         expected = f"{expected}, as {error['msg']}"
-        example = f"{_key_of(loc)} = {_toml(context['example'])}"
-    given = "nothing" if error["type"] == "missing" else _shown(_value(document, loc))
+        example = f"{name} = {toml(context['example'])}"
+    given = "nothing" if error["type"] == "missing" else shown(value_at(document, loc))
     return Problem(path, given, expected, example)
 
 
-def _between_keys(document: Mapping[str, Any]) -> Iterator[Problem]:
-    """What ties keys together, as far as each of them can be read by itself."""
-    wheel = _value(document, ("wheel",))
-    if isinstance(wheel, Mapping):
-        sizes = {"mean_pitch_radius", "mean_pitch_diameter"} & wheel.keys()
-        if len(sizes) != 1:
-            given = "both of them" if sizes else "nothing"
-            expected = "either mean_pitch_radius or mean_pitch_diameter"
-            yield Problem(
-                "wheel.mean_pitch_radius", given, expected, 'mean_pitch_radius = "130 mm"'
+def _unknown_assumptions(document: Document) -> Iterator[Problem]:
+    """What [[assumed]] names must be there, or the reason would be read with no value."""
+    entries = document.get("assumed")
+    for index, entry in enumerate(entries if isinstance(entries, list) else []):
+        value = value_at(entry, ("value",))
+        if not isinstance(value, str) or not value:
+            continue
+        if value_at(document, tuple(value.split("."))) is None:
+            expected = "the path of a key in this file" + did_you_mean(
+                value, list(_paths(document))
             )
-    few, many = (_value(document, (member, "teeth")) for member in ("pinion", "wheel"))
-    if isinstance(few, int) and isinstance(many, int) and 1 <= many <= few:
-        expected = f"more teeth than the pinion, which has {few}"
-        yield Problem("wheel.teeth", str(many), expected, f"teeth = {few + 1}")
-    radius = _length(document, "wheel.mean_pitch_radius")
-    if radius is None:
-        diameter = _length(document, "wheel.mean_pitch_diameter")
-        radius = None if diameter is None else diameter / 2
-    if radius is None or radius <= 0:
-        return
-    for path, limit, why in (
-        ("pair.offset", radius, "the wheel's mean pitch radius: the offset lies beyond the wheel"),
-        ("wheel.face_width", 2 * radius, "the wheel's mean pitch diameter: no cone is that wide"),
-    ):
-        length = _length(document, path)
-        if length is not None and length >= limit:
-            key, given = path.split(".")[1], _shown(_value(document, tuple(path.split("."))))
-            example = f'{key} = "{0.25 * limit:g} mm"'
-            yield Problem(path, given, f"less than {limit:g} mm, {why}", example)
+            example = 'value = "pair.shaft_angle"'
+            yield Problem(f"assumed[{index}].value", toml(value), expected, example)
 
 
-def _length(document: Mapping[str, Any], path: str) -> float | None:
-    try:
-        return parse(_value(document, tuple(path.split("."))), "length")
-    except QuantityError:
-        return None
+def _paths(document: Document, before: str = "") -> Iterator[str]:
+    for key, value in document.items():
+        yield f"{before}{key}"
+        if isinstance(value, Mapping):
+            yield from _paths(value, f"{before}{key}.")  # pyright: ignore[reportUnknownArgumentType]
 
 
-def _value(document: Any, loc: Location) -> Any:
-    """What the file says at a place, None where it says nothing."""
+def _walk(model: type[BaseModel], loc: Location) -> tuple[type[BaseModel], str, FieldInfo | None]:
+    """The table at a place, and the last named key on the way there."""
+    name, field, entry = "", None, False
     for part in loc:
-        if isinstance(document, Mapping):
-            document = document.get(part)  # pyright: ignore[reportUnknownMemberType]
-        elif isinstance(document, Sequence) and isinstance(part, int) and part < len(document):
-            document = document[part]
-        else:
-            return None
-    return document
+        if not isinstance(part, str):
+            continue
+        if entry:  # the name of an entry, as cams.23: the table is its field's
+            entry = False
+            continue
+        if name and field is not None:
+            model = table_of(field.annotation) or model
+        name, field = part, keys_of(model)[part]
+        entry = get_origin(field.annotation) is dict
+    return model, name, field
 
 
-def _keys(loc: Location) -> dict[str, FieldInfo]:
+def _keys(model: type[BaseModel], loc: Location) -> dict[str, FieldInfo]:
     """The keys that the table at a place may have."""
-    model: type[BaseModel] = DesignFile
-    for part in loc:
-        if isinstance(part, str):
-            model = _table(_keys_of(model)[part].annotation) or model
-    return _keys_of(model)
+    model, _, field = _walk(model, loc)
+    return keys_of((table_of(field.annotation) if field else None) or model)
 
 
-def _keys_of(model: type[BaseModel]) -> dict[str, FieldInfo]:
-    return {field.alias or name: field for name, field in model.model_fields.items()}
-
-
-def _table(annotation: Any) -> type[BaseModel] | None:
-    """The table in `Table`, `Table | None` or `list[Table]`."""
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        return annotation
-    return next((table for part in get_args(annotation) if (table := _table(part))), None)
-
-
-def _field(loc: Location) -> FieldInfo:
-    names = [part for part in loc if isinstance(part, str)]
-    return _keys(tuple(names[:-1]))[names[-1]]
-
-
-def _key_of(loc: Location) -> str:
-    return next(part for part in reversed(loc) if isinstance(part, str))
-
-
-def _path(loc: Location) -> str:
-    parts = (f"[{part}]" if isinstance(part, int) else f".{part}" for part in loc)
-    return "".join(parts).removeprefix(".")
+def _field(model: type[BaseModel], loc: Location) -> tuple[str, FieldInfo]:
+    """The key at a place; of a list's or table's entry, the key that holds them."""
+    _, name, field = _walk(model, loc)
+    assert field is not None
+    return name, field
 
 
 def _line(key: str, field: FieldInfo) -> str:
     """A line of the file that would do."""
-    return f"{key} = {_toml((field.examples or [''])[0])}"
-
-
-def _shown(value: Any) -> str:
-    text = "a table" if isinstance(value, Mapping) else _toml(value)
-    return text if len(text) <= 60 else f"{text[:57]}..."
-
-
-def _toml(value: Any) -> str:
-    match value:
-        case dict():
-            return "{" + ", ".join(f"{k} = {_toml(v)}" for k, v in value.items()) + "}"
-        case list():
-            return "[" + ", ".join(map(_toml, value)) + "]"
-        case str() | bool():
-            return json.dumps(value, ensure_ascii=False)
-        case _:
-            return str(value)
+    return f"{key} = {toml((field.examples or [''])[0])}"

@@ -9,7 +9,11 @@ import re
 from math import isfinite, pi
 from typing import Literal
 
-Kind = Literal["length", "angle", "per_length", "length_per_angle", "force", "torque", "stress"]
+Kind = Literal[
+    "length", "angle", "per_length", "length_per_angle", "length_per_angle^2",
+    "length_per_angle^3", "length_per_angle^4", "length_per_angle^5", "length_per_angle^6",
+    "force", "torque", "stress",
+]  # fmt: skip
 
 _MM = {"mm": 1.0, "um": 1e-3, "m": 1e3, "cm": 10.0, "in": 25.4, "ft": 304.8}
 _DEG = pi / 180
@@ -17,6 +21,10 @@ _RAD = {
     "deg": _DEG, "rad": 1.0, "min": _DEG / 60, "sec": _DEG / 3600,
     "arcmin": _DEG / 60, "arcsec": _DEG / 3600, "mrad": 1e-3, "urad": 1e-6,
 }  # fmt: skip
+_PER_POWER: tuple[Kind, ...] = (
+    "length_per_angle^2", "length_per_angle^3", "length_per_angle^4", "length_per_angle^5",
+    "length_per_angle^6",
+)  # fmt: skip
 _INCH_POUND = 112.98482902761668  # N mm
 
 # Unit -> its size in the program's own unit. A space may be left out, or written as * or a dot.
@@ -25,6 +33,10 @@ _UNITS: dict[Kind, dict[str, float]] = {
     "angle": _RAD | {"°": _DEG, "'": _DEG / 60, '"': _DEG / 3600},
     "per_length": {f"{one}/{unit}": 1 / mm for unit, mm in _MM.items() for one in ("", "1")},
     "length_per_angle": {f"{a}/{b}": _MM[a] / _RAD[b] for a in _MM for b in ("rad", "deg")},
+    **{
+        kind: {f"{a}/{b}^{n}": _MM[a] / _RAD[b] ** n for a in _MM for b in ("rad", "deg")}
+        for n, kind in enumerate(_PER_POWER, start=2)
+    },
     "force": {"N": 1.0, "kN": 1e3, "lbf": 4.4482216152605},
     "torque": {
         "N m": 1e3, "kN m": 1e6, "N mm": 1.0, "lbf in": _INCH_POUND, "lbf ft": 12 * _INCH_POUND
@@ -39,6 +51,7 @@ _EXAMPLES: dict[Kind, str] = {
     "angle": "12 deg 30 min",
     "per_length": "0.004 /mm",
     "length_per_angle": "0.1 mm/rad",
+    **{kind: f"0.01 mm/rad^{n}" for n, kind in enumerate(_PER_POWER, start=2)},
     "force": "1.5 kN",
     "torque": "110 N m",
     "stress": "206 GPa",

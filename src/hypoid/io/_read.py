@@ -5,31 +5,40 @@ from __future__ import annotations
 import tomllib
 from pathlib import Path
 
-from hypoid.design._spec import ExactFaceHobbedSpec
+from hypoid.design import Spec
 from hypoid.geometry import DesignError, Problem
 
 from ._design_file import DesignFile
-from ._problems import problems_of
+from ._problems import form_of, problems_of
+from ._sheet_file import SummarySheetFile
+from ._sheet_spec_of import sheet_spec_of
 from ._spec_of import spec_of
 
 _WANTED = "a design file: TOML text in UTF-8"
 _EXAMPLE = "examples/gonzalez-fuentes-2022.toml (`hypoid examples --copy-to .` writes it)"
 
 
-def read_spec(path: str | Path) -> ExactFaceHobbedSpec:
+def read_spec(path: str | Path) -> Spec:
     """What a design file asks for, in mm and rad."""
     return parse_spec(_text(Path(path)), str(path))
 
 
-def parse_spec(text: str, name: str = "design file") -> ExactFaceHobbedSpec:
+def parse_spec(text: str, name: str = "design file") -> Spec:
     """What the text of a design file asks for; `name` is what messages call it."""
     try:
         document = tomllib.loads(text)
     except (ValueError, RecursionError) as error:  # line and column are in TOML's own message
         raise _unreadable(name, f"text that is not TOML ({error})") from None
-    if problems := problems_of(document):
+    form = form_of(document)
+    if isinstance(form, Problem):
+        raise DesignError([form])
+    if problems := problems_of(document, form):
         raise DesignError(problems)
-    return spec_of(DesignFile.model_validate(document))
+    file = form.model.model_validate(document)
+    if isinstance(file, SummarySheetFile):
+        return sheet_spec_of(file)
+    assert isinstance(file, DesignFile)
+    return spec_of(file)
 
 
 def _text(path: Path) -> str:

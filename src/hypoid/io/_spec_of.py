@@ -1,13 +1,12 @@
-"""From the checked design file to what is asked of the program."""
+"""From the checked file with [cutting] to what is asked of the program."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 
-from pydantic import BaseModel
+from hypoid.design import Assumption, ExactFaceHobbedSpec, SettingValue, TipRelief
 
-from hypoid.design._spec import Assumption, ExactFaceHobbedSpec, SettingValue, TipRelief
-
+from ._defaults import defaults_used
 from ._design_file import DesignFile, Relief, Settings
 
 
@@ -15,11 +14,20 @@ def spec_of(file: DesignFile) -> ExactFaceHobbedSpec:
     """The numbers of a design file, with all that the file or the program assumed."""
     pair, pinion, wheel = file.pair, file.pinion, file.wheel
     blank, cutting = file.blank, file.cutting
+    with_defaults = {
+        "blank": blank,
+        "cutting": cutting,
+        "cutting.tip_relief": cutting.tip_relief,
+        "contact": file.contact,
+    }
     radius = wheel.mean_pitch_radius or (wheel.mean_pitch_diameter or 0.0) / 2
     return ExactFaceHobbedSpec(
         title=file.title,
         source=file.source,
-        assumed=(*(Assumption(a.value, a.reason) for a in file.assumed), *_defaults_used(file)),
+        assumed=(
+            *(Assumption(a.value, a.reason) for a in file.assumed),
+            *defaults_used(with_defaults),
+        ),
         shaft_angle=pair.shaft_angle,
         offset=pair.offset,
         pinion_teeth=pinion.teeth,
@@ -62,22 +70,3 @@ def _given(settings: Settings) -> dict[str, SettingValue]:
         name: tuple(value) if isinstance(value, list) else value
         for name, value in settings.model_dump(exclude_none=True).items()
     }
-
-
-def _defaults_used(file: DesignFile) -> Iterator[Assumption]:
-    """Numbers that the program put in because the file does not give them."""
-    tables: dict[str, BaseModel | None] = {
-        "blank": file.blank,
-        "cutting": file.cutting,
-        "cutting.tip_relief": file.cutting.tip_relief,
-        "contact": file.contact,
-    }
-    for path, table in tables.items():
-        for name, field in type(table).model_fields.items() if table else ():
-            if (
-                field.default is not None
-                and not field.is_required()
-                and name not in (table.model_fields_set if table else ())
-            ):
-                reason = f"not given; the program's default is {field.default}"
-                yield Assumption(f"{path}.{field.alias or name}", reason)

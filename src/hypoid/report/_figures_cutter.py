@@ -9,20 +9,19 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from hypoid.cutter import Blade, FaceHobHead
-from hypoid.pair import GearPair
 
 from ._style import BLACK, GREY, ORANGE, PINION, VERMILION, WHEEL, dimension, figure
 
 RELIEF_SCALE = 50.0  # how much the tip relief is drawn larger than it is
 
 
-def cutter_figure(pair: GearPair) -> Figure:
+def cutter_figure(pinion: FaceHobHead, wheel: FaceHobHead) -> Figure:
     """Head with slope angle, and both members' blades (outer blade; the inner one mirrors it)."""
     drawn = figure(4.4)
-    head, pinion, wheel = drawn.subplots(1, 3, width_ratios=(1.2, 1.0, 1.0))
-    _head(head, pair.wheel.head)
-    _blade(pinion, pair.pinion.head.outer, "pinion, outer blade", PINION)
-    _blade(wheel, pair.wheel.head.inner, "wheel, inner blade", WHEEL)
+    row = drawn.subplots(1, 3, width_ratios=(1.2, 1.0, 1.0))
+    _head(row[0], wheel)
+    _blade(row[1], pinion.outer, "pinion, outer blade", PINION)
+    _blade(row[2], wheel.inner, "wheel, inner blade", WHEEL)
     return drawn
 
 

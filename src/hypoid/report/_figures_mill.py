@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from math import degrees
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -65,9 +64,11 @@ def _blades(axes: Axes, member: Member, colour: str) -> None:
         )
     axes.axhline(0.0, color=GREY, linewidth=0.6, dashes=(6, 3))
     low = axes.get_ylim()[0]
-    ends: Any = ((min(corners), low), (max(corners), low))
     if together:
-        dimension(axes, *ends, f"{abs(corners[0] - corners[1]):.4g}", offset=(0.0, -10.0))
+        ends = (min(corners), low), (max(corners), low)
+        dimension(
+            axes, ends[0], ends[1], f"{abs(corners[0] - corners[1]):.4g}", offset=(0.0, -10.0)
+        )
     axes.set_aspect("equal")
     axes.margins(0.3, 0.35)
     axes.set_xlabel("radius from the cutter axis [mm]")

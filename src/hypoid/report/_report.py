@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hypoid.cutter import FaceMillHead
+from hypoid.cutter import FaceHobHead
 from hypoid.pair import GearPair
 
 from ._figures_blank import blank_figure
@@ -137,11 +137,12 @@ def _heel_note(pair: GearPair) -> str:
 
 
 def _cutter(pair: GearPair) -> str:
-    if isinstance(pair.pinion.head, FaceMillHead):
-        words = "Face-mill blades in the plane of the cutter axis, tips up; orange: edge arc."
-        return drawing(to_svg(mill_figure(pair)), words)
-    words = "Face-hob head and blade profiles; flat land, edge arc, straight edge, relief."
-    return drawing(to_svg(cutter_figure(pair)), words)
+    pinion, wheel = pair.pinion.head, pair.wheel.head
+    if isinstance(pinion, FaceHobHead) and isinstance(wheel, FaceHobHead):
+        words = "Face-hob head and blade profiles; flat land, edge arc, straight edge, relief."
+        return drawing(to_svg(cutter_figure(pinion, wheel)), words)
+    words = "Face-mill blades in the plane of the cutter axis, tips up; orange: edge arc."
+    return drawing(to_svg(mill_figure(pair)), words)
 
 
 def _findings(found: Results) -> str:

@@ -1,0 +1,121 @@
+"""What every design file is made of: quantities as keys, tables that refuse what they do not know.
+
+Every key carries what is expected of it and an example; messages and the JSON Schema are made of
+these.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import pi
+from typing import Annotated, Any, Literal, get_args
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
+from pydantic.fields import FieldInfo
+from pydantic_core import PydanticCustomError
+
+from ._quantity import Kind, QuantityError, parse
+
+DEG = pi / 180
+LARGEST = 1e5  # mm; beyond any gear, within any arithmetic
+EPS = 1e-9  # rad; a limit that is itself allowed, through the rounding of its conversion
+
+
+def read_as(kind: Kind) -> Callable[[object], float]:
+    """A validator that reads a quantity of that kind."""
+
+    def read(given: object) -> float:
+        try:
+            return parse(given, kind)
+        except QuantityError as error:
+            about = {"expected": error.expected, "example": error.example}
+            raise PydanticCustomError("quantity", "{expected}", about) from None
+
+    return read
+
+
+_TEXT = WithJsonSchema({"type": "string"})
+Length = Annotated[float, BeforeValidator(read_as("length")), _TEXT]
+Angle = Annotated[float, BeforeValidator(read_as("angle")), _TEXT]
+PerLength = Annotated[float, BeforeValidator(read_as("per_length")), _TEXT]
+LengthPerAngle = Annotated[float, BeforeValidator(read_as("length_per_angle")), _TEXT]
+
+
+def key(expected: str, example: object, **more: Any) -> Any:
+    """A key of a table: what is expected of it, an example, and its range or default."""
+    return Field(description=expected, examples=[example], **more)
+
+
+class Table(BaseModel):
+    """A table of the design file: no key but those named here, nothing converted in silence."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True, allow_inf_nan=False)
+
+
+class Settings(Table):
+    """Basic machine settings of a flank, in the words of a summary sheet; what is given holds."""
+
+    radial_distance: Length | None = key("a length above 0", "108.966 mm", default=None, gt=0)
+    cradle_angle: Angle | None = key("an angle", "47.606 deg", default=None)
+    tilt_angle: Angle | None = key("an angle", "0 deg", default=None)
+    swivel_angle: Angle | None = key("an angle", "0 deg", default=None)
+    blank_offset: Length | None = key("a length", "-55.489 mm", default=None)
+    machine_root_angle: Angle | None = key("an angle", "10.791 deg", default=None)
+    machine_center_to_back: Length | None = key("a length", "18.029 mm", default=None)
+    sliding_base: Length | None = key("a length", "-3.376 mm", default=None)
+    ratio_of_roll: float | None = key("a plain number above 0", 12.431511, default=None, gt=0)
+    helical_motion: LengthPerAngle | None = key("length per angle", "0.1 mm/rad", default=None)
+    modified_roll: list[float] | None = key(
+        "up to 5 plain numbers, of orders 2 to 6",
+        [0.0, 0.001],
+        default=None,
+        max_length=5,
+    )
+
+
+class Pair(Table):
+    """[pair]."""
+
+    shaft_angle: Angle = key(
+        "an angle from 30 to 150 deg", "90 deg", ge=30 * DEG - EPS, le=150 * DEG + EPS
+    )
+    offset: Length = key(
+        "a length of 0 or more, within the wheel's mean pitch radius", "55 mm", ge=0
+    )
+
+
+class Contact(Table):
+    """[contact]."""
+
+    marking_thickness: Length = key(
+        "a length above 0", "0.0065 mm", default="6.35 um", validate_default=True, gt=0, le=LARGEST
+    )
+
+
+class Assumed(Table):
+    """[[assumed]]: a value that the source does not give."""
+
+    value: str = key("the path of a key in this file", "pinion.hand", min_length=1)
+    reason: str = key("why this value was chosen", "Fig. A.16 shows a left-hand pinion")
+
+
+class DesignTable(Table):
+    """What every design file says first."""
+
+    schema_version: Literal[1] = key("1, the version of this format", 1, alias="schema")
+    title: str = key("a text", "High-reduction hypoid 6 x 73", default="Untitled pair")
+    source: str = key("a text", "Gonzalez-Perez 2022, Table 1", default="")
+    contact: Contact = key("a table", {"marking_thickness": "0.0065 mm"}, default=Contact())
+    assumed: list[Assumed] = key("tables [[assumed]]", [], default=[])
+
+
+def keys_of(model: type[BaseModel]) -> dict[str, FieldInfo]:
+    """A table's keys as the file writes them."""
+    return {field.alias or name: field for name, field in model.model_fields.items()}
+
+
+def table_of(annotation: Any) -> type[BaseModel] | None:
+    """The table in `Table`, `Table | None`, `list[Table]` or `dict[str, Table]`."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return annotation
+    return next((table for part in get_args(annotation) if (table := table_of(part))), None)

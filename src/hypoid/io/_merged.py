@@ -1,0 +1,58 @@
+"""A flank's table of a summary sheet: the member's keys, and the flank's own before them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from ._document import Document, number_at, table_at
+from ._quantity import Kind
+
+MEMBERS = ("pinion", "wheel")
+SIDES = ("concave", "convex")
+
+
+@dataclass(frozen=True)
+class Merged:
+    """The table `settings` or `blade` of one flank, as the file writes it."""
+
+    member: str
+    side: str
+    name: str
+    of_member: Document
+    of_flank: Document
+    of_mate: Document  # the same member's other flank
+
+    def __contains__(self, key: str) -> bool:
+        return key in self.of_flank or key in self.of_member
+
+    def given(self) -> list[str]:
+        """Every key that holds for this flank."""
+        return list(dict.fromkeys([*self.of_member, *self.of_flank]))
+
+    def get(self, key: str) -> Any:
+        """What holds for this flank, None where nothing does."""
+        return self.of_flank.get(key, self.of_member.get(key))
+
+    def number(self, key: str, kind: Kind) -> float | None:
+        """The quantity under a key, None where there is none that can be read."""
+        return number_at({key: self.get(key)}, key, kind)
+
+    def path(self, key: str) -> str:
+        """Where the key stands; a missing one is wanted at the member unless the mate has its own."""
+        at_flank = key in self.of_flank or (key not in self.of_member and key in self.of_mate)
+        where = f"{self.member}.{self.side}" if at_flank else self.member
+        return f"{where}.{self.name}.{key}"
+
+
+def merged(document: Document, member: str, side: str, name: str) -> Merged:
+    """The table `settings` or `blade` of a flank."""
+    mate = SIDES[1 - SIDES.index(side)]
+    return Merged(
+        member,
+        side,
+        name,
+        table_at(document, f"{member}.{name}"),
+        table_at(document, f"{member}.{side}.{name}"),
+        table_at(document, f"{member}.{mate}.{name}"),
+    )

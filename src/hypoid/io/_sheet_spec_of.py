@@ -1,0 +1,149 @@
+"""From the checked summary sheet to what is asked of the program."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from hypoid.blank import GivenBlank, crown_point
+from hypoid.design import Assumption, BladeSpec, FlankSpec, MemberSpec, SummarySheetSpec
+
+from ._defaults import defaults_used
+from ._quantity import parse
+from ._sheet_file import (
+    ROLL_TERMS,
+    BladeTable,
+    GivenBlankTable,
+    SheetFlank,
+    SheetMember,
+    SummarySheetFile,
+    plain_roll,
+)
+from ._sheet_settings import DIALS, FORM_CUT
+
+
+def sheet_spec_of(file: SummarySheetFile) -> SummarySheetSpec:
+    """The numbers of a summary sheet, with all that the file or the program assumed."""
+    grinder = file.machine.gleason_463
+    constants = {} if grinder is None else {"gleason-463": grinder.model_dump(exclude_none=True)}
+    return SummarySheetSpec(
+        title=file.title,
+        source=file.source,
+        assumed=(
+            *(Assumption(a.value, a.reason) for a in file.assumed),
+            *_put_in("pinion", file.pinion),
+            *_put_in("wheel", file.wheel),
+            *defaults_used({"contact": file.contact}),
+        ),
+        shaft_angle=file.pair.shaft_angle,
+        offset=file.pair.offset,
+        pinion=_member(file.pinion),
+        wheel=_member(file.wheel),
+        marking_thickness=file.contact.marking_thickness,
+        machine_constants=constants,
+    )
+
+
+def _member(member: SheetMember) -> MemberSpec:
+    return MemberSpec(
+        teeth=member.teeth,
+        hand=member.hand,
+        blank=_blank(member.blank),
+        concave=_flank(member, member.concave, outside=True),
+        convex=_flank(member, member.convex, outside=False),
+    )
+
+
+def _blank(blank: GivenBlankTable) -> GivenBlank:
+    distance, addendum = blank.outer_cone_distance, blank.outer_addendum
+    if blank.outside_diameter is not None and blank.pitch_apex_to_crown is not None:
+        distance, addendum = crown_point(
+            blank.outside_diameter, blank.pitch_apex_to_crown, blank.pitch_angle
+        )
+    assert distance is not None
+    assert addendum is not None
+    return GivenBlank(
+        pitch_angle=blank.pitch_angle,
+        outer_cone_distance=distance,
+        face_width=blank.face_width,
+        mean_spiral_angle=blank.mean_spiral_angle,
+        outer_addendum=addendum,
+        face_angle=blank.face_angle,
+        outer_dedendum=blank.outer_dedendum,
+        root_angle=blank.root_angle,
+    )
+
+
+def _settings(member: SheetMember, flank: SheetFlank) -> dict[str, Any]:
+    """What holds for a flank; its own keys go before its member's."""
+    return member.settings.model_dump(exclude_none=True) | flank.settings.model_dump(
+        exclude_none=True
+    )
+
+
+def _flank(member: SheetMember, flank: SheetFlank, *, outside: bool) -> FlankSpec:
+    own = _settings(member, flank)
+    method, machine = own.pop("method"), own.pop("machine", "basic")
+    dials: dict[str, Any] = {
+        name: tuple(value) if isinstance(value, list) else value for name, value in own.items()
+    }
+    if machine == "basic":
+        for name, value in DIALS["basic"].defaults.items():
+            dials.setdefault(name, parse(value, "angle" if "deg" in value else "length"))
+        dials.setdefault("ratio_of_roll", 1.0)  # of a form cut, whose cradle stands still
+        terms = {name: dials.pop(name) for name in ROLL_TERMS if name in dials}
+        if terms:
+            dials["modified_roll"] = plain_roll(terms)
+        if "motions" in dials:
+            moved: dict[str, list[float]] = dials["motions"]
+            dials["motions"] = {name: tuple(powers) for name, powers in moved.items()}
+    return FlankSpec(method, machine, dials, _blade(member, flank, outside))
+
+
+def _blade(member: SheetMember, flank: SheetFlank, outside: bool) -> BladeSpec:
+    own = _blade_keys(member.blade) | _blade_keys(flank.blade)
+    cutter, land = member.cutter, None
+    if cutter.diameter is not None and cutter.point_width is not None:
+        land = 0.5 * cutter.point_width
+        radius = 0.5 * cutter.diameter + (land if outside else -land)
+    else:
+        radius = 0.5 * own["point_diameter"]
+    toprem, flankrem = own.get("toprem"), own.get("flankrem")
+    return BladeSpec(
+        point_radius=radius,
+        angle=own["angle"],
+        edge_radius=own.get("edge_radius", 0.0),
+        land=land,
+        height=cutter.height,
+        curve=own.get("profile", "straight"),
+        curve_radius=own.get("radius", 0.0),
+        curve_coefficient=own.get("coefficient", 0.0),
+        reference_height=own.get("reference_height", 0.0),
+        toprem=toprem and (toprem.angle, toprem.height),
+        flankrem=flankrem and (flankrem.height, flankrem.angle or 0.0, flankrem.coefficient or 0.0),
+    )
+
+
+def _blade_keys(blade: BladeTable) -> dict[str, Any]:
+    return {name: value for name, value in blade if value is not None}
+
+
+def _put_in(name: str, member: SheetMember) -> Iterator[Assumption]:
+    """Values that the program put in at a member, told once where both flanks lack them."""
+    lacking: dict[tuple[str, str, str], list[str]] = {}
+    for side, flank in (("concave", member.concave), ("convex", member.convex)):
+        given = _settings(member, flank)
+        defaults = dict(DIALS[given.get("machine", "basic")].defaults)
+        if given["method"] in FORM_CUT:  # nothing moves
+            defaults.pop("ratio_of_roll", None)
+        if "helical_gears" in given:
+            defaults["helical_direction"] = "1"
+        for key, value in defaults.items():
+            if key not in given:
+                lacking.setdefault(("settings", key, value), []).append(side)
+        if "edge_radius" not in _blade_keys(member.blade) | _blade_keys(flank.blade):
+            lacking.setdefault(("blade", "edge_radius", "0 mm"), []).append(side)
+    for (table, key, value), sides in lacking.items():
+        for where in [name] if len(sides) == 2 else [f"{name}.{side}" for side in sides]:
+            reason = f"not given; the program's default is {value}"
+            yield Assumption(f"{where}.{table}.{key}", reason)
