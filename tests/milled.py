@@ -35,6 +35,7 @@ CUTTERS: dict[str, dict[str, Any]] = {
     "parabola": {"profile": ParabolicProfile(0.002, 4.0)},
     "toprem": {"toprem": Toprem(radians(2.0), 2.2)},
     "flankrem": {"flankrem": Flankrem(6.0, coefficient=0.004)},
+    "straight flankrem": {"flankrem": Flankrem(6.0, angle=radians(2.0))},
 }
 METHODS: dict[str, dict[str, Any]] = {
     "generated": {},

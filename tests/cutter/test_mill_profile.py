@@ -196,12 +196,12 @@ def test_a_positive_curve_crowns_the_tooth(curve: Any, sign: float) -> None:
 def test_parabolic_flankrem_is_measured_off_the_flank(forty_digits: None) -> None:
     """c (s - b)**2 along the normal of the flank's vertex, on top of the blade's own parabola."""
     blade = replace(PLAIN, profile=ParabolicProfile(0.001, 6.0), flankrem=Flankrem(9.0, 0.0, 0.005))
-    *_, flank, flankrem = blade.outline
-    s = np.linspace(flankrem.low, flankrem.high, 7)
-    x, z = meridian(blade, "flankrem", s)
+    *_, flank = blade.outline
+    s = np.linspace(flank.relief_from, flank.high, 7)
+    x, z = meridian(blade, "flank", s)
     for length, px, pz in zip(s, x, z, strict=True):
         u = mpf(float(length))
-        off = mpf(0.001) * u * u + mpf(0.005) * (u - mpf(flank.high)) ** 2
+        off = mpf(0.001) * u * u + mpf(0.005) * (u - mpf(flank.relief_from)) ** 2
         a = mpf(ANGLE)
         assert abs(6 * mpmath.tan(a) + u * mpmath.sin(a) + off * mpmath.cos(a) - px) < 2e-13
         assert abs(-6 - u * mpmath.cos(a) + off * mpmath.sin(a) - pz) < 2e-14

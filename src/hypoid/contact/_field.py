@@ -26,7 +26,7 @@ from ._mounting import Mounting, to_wheel
 class AngleField:
     """A left-hand flank as an angle over (S, H), between its fillet limit and its blade's end."""
 
-    parts: tuple[Chart, ...]  # from the fillet limit up: two where a relief begins, else one
+    parts: tuple[Chart, ...]  # from the fillet limit up: a chart of each smooth part
     cone: PitchCone
     tip: Border  # the face cone
 
@@ -52,18 +52,24 @@ class AngleField:
 
 @lru_cache(maxsize=64)
 def angle_field(flank: Flank) -> AngleField:
-    """The angle field of a flank: its chart, or two that meet where its relief begins."""
+    """The angle field of a flank: its chart, or two that meet where its relief or Flankrem begins."""
     piece = flank.pieces["flank"]
     low, high, start = float(piece.low), float(piece.high), float(piece.relief_from)
     relieved = float(piece.relief) != 0.0 and low < start < high
     if not relieved:
-        return AngleField((flank.charts["flank"],), flank.cone, flank.tip)
+        parts = tuple(flank.charts[name] for name in active(flank))
+        return AngleField(parts, flank.cone, flank.tip)
     pieces = (replace(piece, high=start, relief=0.0), replace(piece, low=start))
     parts = tuple(
         chart(flank.surface, p, flank.cone, flank.toe, flank.heel, flank.theta_start, rooted=False)
         for p in pieces
     )
     return AngleField(parts, flank.cone, flank.tip)
+
+
+def active(flank: Flank) -> tuple[str, ...]:
+    """Pieces of the active flank, upwards: a straight Flankrem ends it."""
+    return tuple(name for name in ("flank", "flankrem") if name in flank.pieces)
 
 
 @dataclass(frozen=True)
@@ -86,10 +92,16 @@ def flank_nodes(flank: Flank, columns: int, rows: int) -> FlankNodes:
     share = np.linspace(0.0, 1.0, rows)
     low = np.asarray(angle_field(flank).lowest.bounds(distance)[0])
     height = low + np.outer(share, flank.tip.at(distance) - low)
-    s, theta, _ = flank.parameters(np.broadcast_to(distance, height.shape).ravel(), height.ravel())
-    position, normal = flank.at_cutter(s, theta)
+    places = np.broadcast_to(distance, height.shape).ravel(), height.ravel()
+    made = np.full((8, height.size), np.nan)  # position, normal, s, theta
+    for name in active(flank):
+        low = np.asarray(flank.charts[name].bounds(places[0])[0])
+        mine = np.ones(height.size, dtype=bool) if name == "flank" else places[1] > low
+        s, theta, _ = flank.parameters(places[0][mine], places[1][mine], name)
+        made[:, mine] = np.vstack([*(a.T for a in flank.at_cutter(s, theta, name)), s, theta])
     hand = np.array([1.0, -1.0 if flank.mirrored else 1.0, 1.0])
-    return FlankNodes(distance, share, height, (position * hand).T, (normal * hand).T, s, theta)
+    point, normal = made[:3] * hand[:, None], made[3:6] * hand[:, None]
+    return FlankNodes(distance, share, height, point, normal, made[6], made[7])
 
 
 def lead(mount: Mounting, wheel: AngleField, phi: Batch, point: Vector) -> Batch:

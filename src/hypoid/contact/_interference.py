@@ -54,8 +54,9 @@ def _deepest(contact: UnloadedContact, tip_of: str, turn: Array, columns: int) -
     pinion, wheel = contact.pinion_flank, contact.wheel_flank
     own, mate = (pinion, wheel) if tip_of == "pinion" else (wheel, pinion)
     face = np.linspace(own.toe, own.heel, columns)
-    s, theta, _ = own.parameters(face, own.tip.at(face))
-    edge, _ = own.at_cutter(s, theta)
+    top = own.cut_pieces[0]
+    s, theta, _ = own.parameters(face, own.tip.at(face), top)
+    edge, _ = own.at_cutter(s, theta, top)
     m = len(contact.phi)
     tip = np.tile(edge, (m, 1))
     if own.mirrored:

@@ -153,7 +153,7 @@ class FaceMillHead:
         """Edge pieces of a blade in the cutter frame by name, from the tip to the shank (mm).
 
         The names are land, fillet (unless the corner is sharp), toprem (if any), flank and flankrem
-        (if any); see ``MillBlade.outline`` for how each counts s. DesignError if the head has faults
+        (if straight); see ``MillBlade.outline`` for how each counts s. DesignError if the head has faults
         or no such blade.
         """
         blade = self.checked().blade(name)

@@ -90,14 +90,18 @@ class MillBlade:
 
     @property
     def outline(self) -> tuple[PlanePiece, ...]:
-        """Land, edge arc, Toprem, flank and Flankrem in the blade's plane, as far as there are any.
+        """Land, edge arc, Toprem, flank and straight Flankrem in the blade's plane, as far as there are any.
 
-        Each but Toprem and a straight Flankrem is tangent to the one before. The flank's s counts
-        from the sharp corner, or from the reference height if it is curved; a Flankrem's s goes on
-        from the flank's; a Toprem's counts from where it meets the plane of the tips, extended.
+        Each but Toprem and Flankrem is tangent to the one before; a parabolic Flankrem is a relief
+        of the flank itself. The flank's s counts from the sharp corner, or from the reference height
+        if it is curved; a Flankrem's s goes on from the flank's; a Toprem's counts from where it
+        meets the plane of the tips, extended.
         """
         flank = self.line
         toprem, flankrem = self._toprem(flank), self._flankrem(flank)
+        if self.flankrem and not flankrem:
+            begin = flank.at_depth(self.flankrem.height)
+            flank = replace(flank, relief=self.flankrem.coefficient, relief_from=begin)
         first = toprem or flank
         start = first.at_depth(0.0, self.edge_radius)
         at = first.at(start)
@@ -123,16 +127,12 @@ class MillBlade:
         return PlanePiece("toprem", corner, math.pi / 2 - lean, 0.0, high)
 
     def _flankrem(self, flank: PlanePiece) -> PlanePiece | None:
-        """Flankrem from its beginning to the shank."""
-        if self.flankrem is None:
+        """Straight Flankrem from its kink to the shank."""
+        if self.flankrem is None or self.flankrem.coefficient:
             return None
         begin = flank.at_depth(self.flankrem.height)
-        if self.flankrem.coefficient:
-            c = self.flankrem.coefficient
-            piece = replace(flank, name="flankrem", low=begin, relief=c, relief_from=begin)
-        else:
-            at = flank.at(begin)
-            lean = at.lean + self.flankrem.angle
-            start = (at.x - begin * math.sin(lean), at.z + begin * math.cos(lean))
-            piece = PlanePiece("flankrem", start, math.pi / 2 - lean, begin, begin)
+        at = flank.at(begin)
+        lean = at.lean + self.flankrem.angle
+        start = (at.x - begin * math.sin(lean), at.z + begin * math.cos(lean))
+        piece = PlanePiece("flankrem", start, math.pi / 2 - lean, begin, begin)
         return replace(piece, high=piece.at_depth(self.height))

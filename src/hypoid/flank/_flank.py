@@ -188,19 +188,21 @@ class Flank:
         inside &= height <= self.tip.at(distance) + slack
         return inside & (height >= self.root.at(distance) - slack)
 
-    def parameters(self, distance: Any, height: Any) -> tuple[Array, Array, Array]:
+    def parameters(
+        self, distance: Any, height: Any, piece: str = "flank"
+    ) -> tuple[Array, Array, Array]:
         """Edge parameter s (mm), turn (rad) and angle about the axis (rad) at (S, H), mm.
 
-        On the flank piece and its extension only; the angle is that of a left-hand member and
+        On that piece and its extension only; the angle is that of a left-hand member and
         never wraps. NaN where Newton does not arrive.
         """
         distance, height = (np.asarray(v, float).ravel() for v in (distance, height))
-        start = self.charts["flank"]
+        start = self.charts[piece]
         x, y = start.coordinates(distance, height)
         x, y = np.clip(x, -1.0, 1.0), np.clip(y, -1.0, 1.0)
         s, theta, angle, left, _ = height_at(
             self.surface,
-            self.pieces["flank"],
+            self.pieces[piece],
             self.cone,
             distance,
             height,
