@@ -20,6 +20,7 @@ from hypoid.machine import MachineSettings
 from hypoid.pair import Member
 
 Array = np.ndarray[Any, Any]
+BANDS = 5  # of a blade's outline, each searched by itself
 WINDOW = 0.6  # rad of cutter turn in which one blade passes one slot
 
 
@@ -233,20 +234,40 @@ class Sweep:
         lengths, phi = np.linspace(low, shank, 161), np.linspace(-0.36, 0.36, 241)
         grid = np.meshgrid(lengths, phi, indexing="ij")
         theta, h, angle = self.reach(distance, *grid, np.full_like(grid[0], self.theta_start))
+        bands = np.array_split(np.arange(len(lengths)), BANDS)  # fillet and flank compete
         for i, height in enumerate(heights):
-            best, s_best, p_best, t_best = self._extreme(grid, theta, h, angle, height, sign)
-            ds, dp = lengths[1] - lengths[0], phi[1] - phi[0]
-            for _ in range(3):
-                fine = np.meshgrid(
-                    np.clip(s_best + ds * np.linspace(-2, 2, 33), low, shank),
-                    p_best + dp * np.linspace(-2, 2, 33),
-                    indexing="ij",
-                )
-                t, hh, a = self.reach(distance, *fine, np.full_like(fine[0], t_best))
-                best, s_best, p_best, t_best = self._extreme(fine, t, hh, a, height, sign)
-                ds, dp = ds / 8.0, dp / 8.0
-            out[i] = best
+            found = [self._refined(distance, grid, (theta, h, angle), height, sign, b) for b in bands]
+            out[i] = sign * np.nanmax(sign * np.array(found))
         return out
+
+    def _refined(
+        self,
+        distance: float,
+        grid: list[Array],
+        reached: tuple[Array, Array, Array],
+        height: float,
+        sign: float,
+        band: Array,
+    ) -> float:
+        """Extreme angle of one band of lengths, searched on finer and finer grids; NaN without any."""
+        lengths, phi = grid[0][:, 0], grid[1][0]
+        rows = slice(band[0], band[-1] + 2)
+        theta, h, angle = (a[rows] for a in reached)
+        part = [g[rows] for g in grid]
+        best, s_best, p_best, t_best = self._extreme(part, theta, h, angle, height, sign)
+        ds, dp = lengths[1] - lengths[0], phi[1] - phi[0]
+        for _ in range(4):  # a wide window: polylines may put the extreme several steps off
+            if not np.isfinite(best):
+                return np.nan
+            fine = np.meshgrid(
+                np.clip(s_best + ds * np.linspace(-6, 6, 49), lengths[0], lengths[-1]),
+                p_best + dp * np.linspace(-6, 6, 49),
+                indexing="ij",
+            )
+            t, hh, a = self.reach(distance, *fine, np.full_like(fine[0], t_best))
+            best, s_best, p_best, t_best = self._extreme(fine, t, hh, a, height, sign)
+            ds, dp = ds / 4.0, dp / 4.0
+        return best
 
     @staticmethod
     def _extreme(
@@ -260,7 +281,9 @@ class Sweep:
         def between(a: Array) -> Array:
             return a[:-1] + share * (a[1:] - a[:-1])
 
-        angles = np.where(crossing, between(angle), -sign * np.inf)
+        angles = np.where(crossing & np.isfinite(between(angle)), between(angle), -sign * np.inf)
+        if not np.isfinite(angles).any():
+            return np.nan, np.nan, np.nan, np.nan
         best = np.unravel_index(np.argmax(sign * angles), angles.shape)
         return tuple(float(between(a)[best]) for a in (angle, grid[0], grid[1], theta))  # type: ignore[return-value]
 

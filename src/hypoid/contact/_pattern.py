@@ -63,7 +63,8 @@ def pattern(contact: UnloadedContact, thickness: float | None = None) -> Pattern
     n = contact.sampling.positions_per_pitch
     period = contact.envelope[:n]
     lead = period[(np.arange(len(contact.phi)) - contact.cycle[0]) % n]
-    behind = lead[:, None] - contact.leads
+    leads = np.where(np.isfinite(contact.leads), contact.leads, np.nan)
+    behind = np.nan_to_num(lead[:, None] - leads, nan=np.inf)
     best = behind.argmin(axis=0)
     lever, z, rho = _levers(contact, contact.phi[best])
     gap = behind[best, np.arange(len(best))] * lever

@@ -9,7 +9,7 @@ from itertools import product
 from typing import Any, Literal
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Bool, Float, Int
 
 from hypoid.cutter import EdgePiece
 from hypoid.geometry import horner, horner_line, on_unit
@@ -17,7 +17,8 @@ from hypoid.machine import MachineSettings
 
 from ._chart import Border, Chart, PitchCone, chart, height_at
 from ._envelope import Surface
-from ._locate import curvatures, from_cutter, locate, locate_from, locate_slowly
+from ._locate import curvatures, from_cutter, locate, locate_slowly
+from ._section import cut_points, roots
 from ._status import PointStatus
 
 Array = np.ndarray[Any, Any]
@@ -27,7 +28,6 @@ RUNOUT, RUNOUT_TOLERANCE = (
     2e-2,
     1e-6,
 )  # mm: last bit of edge before the root land, what is left there
-UNDERCUT_STARTS = (0.1, 0.35, 0.6, 0.85, 1.0)  # shares of the edge
 EDGE = 1e-7  # mm, how far past its own end a piece may be read
 
 
@@ -41,6 +41,7 @@ class FlankPoints:
     piece: Int[Array, " n"]  # index into Flank.cut_pieces
     s: Float[Array, " n"]  # edge parameter, mm
     theta: Float[Array, " n"]  # the surface's turn, rad (see Surface)
+    other: Bool[Array, " n"]  # made by the meshing condition's other root (undercut)
     flank: Flank
 
     @property
@@ -50,13 +51,13 @@ class FlankPoints:
     @cached_property
     def _curvature(self) -> Array:
         values = np.full((8, len(self.s)), np.nan)
-        for index, name in enumerate(self.flank.cut_pieces):
-            mine = (self.piece == index) & np.isfinite(self.s)
+        for (index, name), (other, surface) in product(
+            enumerate(self.flank.cut_pieces), enumerate(roots(self.flank.surface))
+        ):
+            mine = (self.piece == index) & (self.other == other) & np.isfinite(self.s)
             if mine.any():
                 piece = self.flank.pieces[name]
-                values[:, mine] = curvatures(
-                    self.flank.surface, piece, self.s[mine], self.theta[mine]
-                )
+                values[:, mine] = curvatures(surface, piece, self.s[mine], self.theta[mine])
         if self.flank.mirrored:
             values[[3, 6]] *= -1.0
         return values
@@ -138,10 +139,12 @@ class Flank:
         status = np.full(len(z), PointStatus.NOT_CONVERGED, dtype=np.int8)
         piece = np.zeros(len(z), dtype=np.int8)
 
-        def ask(index: int, places: Array, share: float | None = None) -> None:
+        other = np.zeros(len(z), dtype=bool)
+
+        def ask(index: int, places: Array) -> None:
             if not len(places):
                 return
-            got, state = self._on_piece(self.cut_pieces[index], z[places], rho[places], share)
+            got, state = self._on_piece(self.cut_pieces[index], z[places], rho[places])
             before = status[places]
             take = (state == PointStatus.SINGULAR) & (before == PointStatus.NOT_CONVERGED)
             take |= (state == PointStatus.OK) & (before != PointStatus.OK)
@@ -162,14 +165,15 @@ class Flank:
             missed = asked & (status != PointStatus.OK)
             for index in range(count):
                 ask(index, np.flatnonzero(missed & (np.abs(owner - index) == 1)))
-        else:  # a piece may pass a place more than once: from several places along its edge
-            for index, share in product(range(count), (None, *UNDERCUT_STARTS)):
-                ask(index, np.flatnonzero(asked), share)
+        else:  # curves turn back and cross: of all that the edge sweeps, what removes most
+            values, piece, other = cut_points(self, z, rho)
+            status[asked] = PointStatus.SINGULAR
+            status[np.isfinite(values[6])] = PointStatus.OK
         failed = np.flatnonzero(status >= PointStatus.SINGULAR)
         values[:, failed] = np.nan
         status[asked & ~self._on_blank(distance, height)] = PointStatus.OUTSIDE_BLANK
         position, normal = self._handed(values)
-        return FlankPoints(position, normal, status, piece, values[6], values[7], self)
+        return FlankPoints(position, normal, status, piece, values[6], values[7], other, self)
 
     def at_cutter(self, s: Any, theta: Any, piece: str = "flank") -> tuple[Array, Array]:
         """Points (n, 3) mm and unit normals (n, 3) from edge parameter s (mm) and turn (rad)."""
@@ -236,24 +240,16 @@ class Flank:
         """Surface points at cone distance S and height H above the pitch cone (mm)."""
         return self.at(*self.cone.axial_radial(np.asarray(distance), np.asarray(height)))
 
-    def _on_piece(
-        self, name: str, z: Array, rho: Array, share: float | None = None
-    ) -> tuple[Array, Array]:
+    def _on_piece(self, name: str, z: Array, rho: Array) -> tuple[Array, Array]:
         """Rows of values (position, normal, s, theta; left hand) and a status at places (z, rho).
 
         The quick way only arrives where surface and chart have one sense, so the chart's serves.
-        ``share`` starts from that share of the edge instead of the chart.
         """
         piece, chart = self.pieces[name], self.charts[name]
         args = (self.surface, piece, chart, self.cone)
         sense = np.full(len(z), chart.sense)
         values = locate(*args, z, rho) if np.isfinite(chart.error) else np.full((9, len(z)), np.inf)
         poor = np.flatnonzero(~(values[8] < TOLERANCE))
-        if share is not None:
-            start = float(piece.low) + share * (float(piece.high) - float(piece.low))
-            rest = self.surface, piece, self.cone, z, rho, start, self.theta_start
-            *values, sense = locate_from(*rest)
-            values, poor = np.array(values), np.array([], dtype=int)
         if len(poor):
             _, y = chart.coordinates(*self.cone.cone_distance_height(z[poor], rho[poor]))
             poor = poor[np.abs(y) < 1.5]  # elsewhere the piece is not asked for

@@ -11,7 +11,7 @@ import numpy as np
 from hypoid.cutter import EdgePiece
 from hypoid.geometry import Batch, Batched, Rows, horner, once
 
-from ._chart import Chart, PitchCone, edge_line, height_at
+from ._chart import Chart, PitchCone, height_at
 from ._envelope import Surface, placed, position_and_normal
 
 AIMS = 5  # tries of the quick way
@@ -58,15 +58,6 @@ def locate_slowly(
 ) -> Rows:
     """The same by full Newton with limited steps, and the Jacobian's sense: where charts fail."""
     return _newton(surface, piece, cone, z, rho, _start(chart, cone, z, rho))
-
-
-def locate_from(
-    surface: Surface, piece: EdgePiece, cone: PitchCone, z: Rows, rho: Rows, s: float, theta: float
-) -> Rows:
-    """The same from where the edge line s reaches the cone distance, next to turn theta."""
-    distance, _ = cone.cone_distance_height(z, rho)
-    line, _ = edge_line(surface, piece, cone, distance, s, theta)
-    return _newton(surface, piece, cone, z, rho, (np.full(len(z), s), line))
 
 
 def _newton(
