@@ -23,3 +23,6 @@ from ._flank import Flank as Flank
 from ._flank import FlankPoints as FlankPoints
 from ._flank import Side as Side
 from ._status import PointStatus as PointStatus
+from ._tooth import Profile as Profile
+from ._tooth import Tooth as Tooth
+from ._tooth import ToothGrid as ToothGrid

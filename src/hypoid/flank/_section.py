@@ -8,7 +8,7 @@ fillet and flank, and finds undercut, where curves turn back, cross or end. The 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -77,11 +77,11 @@ look = Batched(_look, parameters=3)
 _passing = Batched(_onto, parameters=3)
 
 
-def sections(flank: Flank, distances: Any) -> list[list[Curve]]:
-    """All curves at each cone distance (mm), root to tip of every piece but the land."""
+def sections(flank: Flank, distances: Any, names: Sequence[str] | None = None) -> list[list[Curve]]:
+    """All curves at each cone distance (mm), of the pieces named; of every piece but the land else."""
     found: list[list[Curve]] = [[] for _ in distances]
-    names, surfaces = flank.cut_pieces, roots(flank.surface)
-    for name in names:
+    surfaces = roots(flank.surface)
+    for name in names or flank.cut_pieces:
         for other, surface in enumerate(surfaces):
             piece = flank.pieces[name]
             for column, curve in _of_piece(flank, surface, name, piece, bool(other), distances):
@@ -123,6 +123,44 @@ def _of_piece(
     for (column, _), *own in zip(runs, *parts, strict=True):
         reached = own[4] < 1e-6
         yield column, Curve(name, other, *(np.where(reached, a, np.nan) for a in own[:4]))
+
+
+def lowest(flank: Flank, distances: Any) -> tuple[Array, Array, Array, Array]:
+    """Height and angle (left hand) of a flank's lowest point at each cone distance, its s and turn.
+
+    On its lowest piece, by the flank's own root; NaN where that piece does not pass.
+    """
+    name = flank.cut_pieces[-1]
+    found = np.full((3, len(distances)), np.nan)  # s, turn, distance
+    for column, curves in enumerate(sections(flank, distances, [name])):
+        own = [c for c in curves if not c.other and np.isfinite(c.height).any()]
+        if not own:
+            continue
+        curve = min(own, key=lambda c: np.nanmin(c.height))
+        k = int(np.nanargmin(curve.height))
+        found[:, column] = _vertex(curve, k), curve.turn[k], distances[column]
+    there = np.flatnonzero(np.isfinite(found[0]))
+    answer = np.full((4, len(distances)), np.nan)
+    if len(there):
+        s, start, wanted = found[:, there]
+        piece = flank.pieces[name]
+        turn, height, angle, _ = _passing(flank.surface, piece, flank.cone, wanted, s, start)
+        answer[:, there] = height, angle, s, turn
+    return tuple(answer)  # pyright: ignore[reportReturnType]
+
+
+def _vertex(curve: Curve, k: int) -> float:
+    """Edge parameter of the minimum height next to vertex k, by a parabola through its neighbours."""
+    near = slice(max(k - 1, 0), k + 2)
+    s, height = curve.s[near], curve.height[near]
+    if len(s) < 3 or not np.isfinite(height).all() or np.ptp(s) < 1e-9:
+        return float(curve.s[k])
+    a, b, _ = np.polyfit(s - curve.s[k], height, 2)
+    return (
+        float(np.clip(curve.s[k] - b / (2.0 * a), s.min(), s.max()))
+        if a > 0.0
+        else float(curve.s[k])
+    )
 
 
 def cut_points(flank: Flank, z: Array, rho: Array) -> tuple[Array, Array, Array]:

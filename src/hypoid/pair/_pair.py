@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal, TypeAlias
 
 from hypoid.blank import MemberBlank, PairBlank
 from hypoid.cutter import FaceHobHead, FaceMillHead
-from hypoid.flank import Flank, Side
+from hypoid.flank import Flank, Side, Tooth
 from hypoid.machine import SummarySheet, to_sheet
 
 Head: TypeAlias = FaceHobHead | FaceMillHead
@@ -23,6 +24,13 @@ class Member:
     heads: Mapping[Side, Head]  # one and the same where one head cuts both flanks
     concave: Flank
     convex: Flank
+    # Turn that puts the convex flank into its slot, rad (left hand): zero where one setting cuts both.
+    stock_turn: float = 0.0
+
+    @cached_property
+    def tooth(self) -> Tooth:
+        """The tooth between two slots, as it is cut."""
+        return Tooth(self.concave, self.convex, self.teeth, self.stock_turn)
 
     @property
     def head(self) -> Head:
