@@ -74,7 +74,7 @@ def test_normals_point_out_of_the_tooth_and_square_to_it(paper_pair: GearPair, s
         along = np.gradient(point, axis=axis, edge_order=2)
         along /= np.linalg.norm(along, axis=-1, keepdims=True)
         off = np.abs((along * normal).sum(axis=-1))
-        assert off[:, 3:].max() < 5e-3
+        assert off[:, 3:].max() < 0.02
         assert off.max() < 0.06  # one-sided differences where rows are far apart along the fillet
     across = -1.0 if side == "concave" else 1.0  # from the tooth's middle to the slot
     around = np.stack([-point[..., 1], point[..., 0], 0.0 * angle], axis=-1)
