@@ -75,7 +75,16 @@ def work_roll(settings: MachineSettings, phi: Any, m: ModuleType = np) -> Any:
         alpha = mpmath.findroot(lambda a: cradle(a) - angle, angle)
         return cam.index_ratio * (c * alpha / r + angle)
 
-    return one(phi) if m is mpmath else np.vectorize(lambda p: float(one(p)))(phi)
+    if m is mpmath:
+        return one(phi)
+    # on arrays by bisection: (24) rises with alpha over the whole working range
+    wanted = np.sin(phi - guide) + math.sin(guide)
+    low, high = np.full(np.shape(phi), -1.2), np.full(np.shape(phi), 1.2)
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        short = delta / c * np.sin(c * middle / r) + np.sin(middle) < wanted
+        low, high = np.where(short, middle, low), np.where(short, high, middle)
+    return cam.index_ratio * (c * low / r + phi)
 
 
 # --- the envelope in 40 digits ---------------------------------------------------------------
@@ -222,7 +231,9 @@ class Sweep:
         height = np.where(passing, height, np.nan)
         return theta, height, angle
 
-    def boundary(self, distance: float, heights: Array, side: str) -> Array:
+    def boundary(
+        self, distance: float, heights: Array, side: str, roll: tuple[float, float] = (-0.36, 0.36)
+    ) -> Array:
         """Extreme angle (greatest on concave flanks) of all that is swept at each height, rad.
 
         The outline is a polyline in the section S = distance for each of many cradle angles; the
@@ -231,12 +242,14 @@ class Sweep:
         sign = 1.0 if side == "concave" else -1.0
         low, shank = self.ends
         out = np.full(len(heights), np.nan)
-        lengths, phi = np.linspace(low, shank, 161), np.linspace(-0.36, 0.36, 241)
+        lengths, phi = np.linspace(low, shank, 161), np.linspace(*roll, 241)
         grid = np.meshgrid(lengths, phi, indexing="ij")
         theta, h, angle = self.reach(distance, *grid, np.full_like(grid[0], self.theta_start))
         bands = np.array_split(np.arange(len(lengths)), BANDS)  # fillet and flank compete
         for i, height in enumerate(heights):
-            found = [self._refined(distance, grid, (theta, h, angle), height, sign, b) for b in bands]
+            found = [
+                self._refined(distance, grid, (theta, h, angle), height, sign, b) for b in bands
+            ]
             out[i] = sign * np.nanmax(sign * np.array(found))
         return out
 

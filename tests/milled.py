@@ -12,7 +12,7 @@ from math import atan2, cos, hypot, pi, radians, sin, tan
 from typing import Any
 
 import numpy as np
-from independent import Array, Sweep, carried, work_roll
+from independent import Array, Sweep, carried, sweep_of, work_roll
 
 from hypoid.cutter import (
     CircularProfile,
@@ -24,6 +24,7 @@ from hypoid.cutter import (
 )
 from hypoid.flank import Border, Flank, PitchCone, Side, best_way, cut_flank
 from hypoid.machine import Cam, MachineSettings, Motions, Way
+from hypoid.pair import Member
 
 HEEL, FACE, SPIRAL = 161.69, 25.0, radians(35.0)
 ADDENDUM, DEDENDUM, TAPER = 3.8, 4.6, radians(1.63)  # at the heel
@@ -177,14 +178,17 @@ class MillSweep(Sweep):
     """One blade of a face-mill head swept through a left-hand blank, with no meshing condition."""
 
     pieces: Any = None
+    mean: float = HEEL - 0.5 * FACE  # cone distance of the mean point, mm
 
     @property
     def theta_start(self) -> float:
-        """Cutter turn that points from the cutter's centre to the mean point, rad."""
-        q, radial = self.settings.cradle_angle, self.settings.radial_distance
-        mean = HEEL - 0.5 * FACE
-        turn = atan2(radial * sin(q), mean - radial * cos(q))
-        return -(turn - (pi / 2 - q + self.settings.swivel_angle))
+        """Cutter turn that points from the cutter's centre to the mean point, rad (no tilt)."""
+        own = self.settings
+        q, radial, root = own.cradle_angle, own.radial_distance, own.machine_root_angle
+        z, rho = self.cone.axial_radial(self.mean, 0.0)
+        along = sin(root) * rho + cos(root) * (z + own.machine_center_to_back)
+        turn = atan2(radial * sin(q) - own.blank_offset, along - radial * cos(q))
+        return -(turn - (pi / 2 - q + own.swivel_angle))
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -207,4 +211,24 @@ def mill_sweep(cutter: str, flank: Flank) -> MillSweep:
     unused: Any = None
     return MillSweep(
         flank.settings, unused, 0.0, 1, 0.0, 0.0, flank.cone, pieces=head.pieces(blade)
+    )
+
+
+def member_sweep(member: Member, flank: Flank) -> Sweep:
+    """The sweep that cuts a flank of any member, whatever its head."""
+    head = member.heads[flank.side]
+    if not isinstance(head, FaceMillHead):
+        return sweep_of(member, flank)
+    blade = "outer" if flank.side == "concave" else "inner"
+    unused: Any = None
+    return MillSweep(
+        flank.settings,
+        unused,
+        0.0,
+        1,
+        0.0,
+        0.0,
+        flank.cone,
+        pieces=head.pieces(blade),
+        mean=member.blank.mean_cone_distance,
     )

@@ -1,5 +1,8 @@
 """Unloaded contact of a mounted pair: motion curve, path, pattern, ease-off, misalignment."""
 
+from ._backlash import Backlash as Backlash
+from ._backlash import backlash as backlash
+from ._backlash import pair_backlash as pair_backlash
 from ._faults import faults as faults
 from ._interference import TipInterference as TipInterference
 from ._interference import tip_interference as tip_interference

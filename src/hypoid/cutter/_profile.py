@@ -96,23 +96,30 @@ def fillet_piece(tip: tuple[float, float], radius: float, lean: float) -> PlaneP
 
 
 def placed(
-    profile: Iterable[PlanePiece], radius: float, across: tuple[float, float]
+    profile: Iterable[PlanePiece],
+    radius: float,
+    across: tuple[float, float],
+    *,
+    lean: tuple[float, float] = (0.0, 0.0),
+    level: float = 0.0,
 ) -> dict[str, EdgePiece]:
     """Edge pieces in the cutter frame, by name, in the profile's order.
 
-    The profile's origin stands on the x axis at ``radius`` (mm); ``across`` is the unit direction of
-    the profile's x in the cutter's x-y plane. Its z is the cutter's.
+    The profile's point (0, level) stands on the x axis at ``radius`` (mm). ``across`` and ``lean``
+    are what 1 mm along the profile's x and z moves in the cutter's x-y plane; its z is the cutter's.
+    A unit ``across`` with no lean is a plane along the cutter axis. Else the profile is the projection
+    of an edge in a raked plane: s stays the projection's, and tangent and metal carry the rake.
     """
 
     def turned(x: float, z: float) -> tuple[float, float, float]:
-        return (x * across[0], x * across[1], z)
+        return (x * across[0] + z * lean[0], x * across[1] + z * lean[1], z)
 
     pieces: dict[str, EdgePiece] = {}
     for plane in profile:
         cosine, sine = math.cos(plane.dip), math.sin(plane.dip)
-        x, y, z = turned(*plane.start)
+        x, y, _ = turned(plane.start[0], plane.start[1] - level)
         pieces[plane.name] = EdgePiece(
-            start=(radius + x, y, z),  # pyright: ignore[reportArgumentType]
+            start=(radius + x, y, plane.start[1]),  # pyright: ignore[reportArgumentType]
             tangent=turned(cosine, -sine),  # pyright: ignore[reportArgumentType]
             metal=turned(sine, cosine),  # pyright: ignore[reportArgumentType]
             curvature=plane.curvature,

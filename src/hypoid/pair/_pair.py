@@ -8,11 +8,11 @@ from functools import cached_property
 from typing import Literal, TypeAlias
 
 from hypoid.blank import MemberBlank, PairBlank
-from hypoid.cutter import FaceHobHead, FaceMillHead
+from hypoid.cutter import CycloPalloidHead, FaceHobHead, FaceMillHead, TriAcHead
 from hypoid.flank import Flank, Side, Tooth
 from hypoid.machine import SummarySheet, to_sheet
 
-Head: TypeAlias = FaceHobHead | FaceMillHead
+Head: TypeAlias = FaceHobHead | FaceMillHead | TriAcHead | CycloPalloidHead
 Direction = Literal["drive", "coast"]
 
 
