@@ -23,6 +23,11 @@ from ._flank import Flank as Flank
 from ._flank import FlankPoints as FlankPoints
 from ._flank import Side as Side
 from ._status import PointStatus as PointStatus
+from ._tooth import SIDES as SIDES
 from ._tooth import Profile as Profile
 from ._tooth import Tooth as Tooth
 from ._tooth import ToothGrid as ToothGrid
+from ._tooth_facts import Neck as Neck
+from ._tooth_facts import ToothFacts as ToothFacts
+from ._tooth_facts import ToothSection as ToothSection
+from ._tooth_facts import tooth_facts as tooth_facts

@@ -102,7 +102,7 @@ def trimmed(flank: Flank) -> Flank:
 
 def recut(flank: Flank, settings: MachineSettings) -> Flank:
     """The flank that the same edge cuts under other settings."""
-    face_milled = flank.surface.way in ("cutter", "form")
+    face_milled = not flank.settings.roll_to_blade_ratio  # the work does not turn with the cutter
     start = None if face_milled else flank.theta_start
     return cut_flank(
         flank.member,

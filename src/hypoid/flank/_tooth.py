@@ -6,6 +6,7 @@ convex flank up to its concave one, a tooth from its concave flank to the next s
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -81,27 +82,41 @@ class Tooth:
     def _radius(self, distance: Any, height: Any) -> Array:
         return np.asarray(self.concave.cone.axial_radial(np.asarray(distance, float), height)[1])
 
-    def grid(self, columns: int = 61, rows: int = 61, across: int = 9) -> ToothGrid:
-        """The whole tooth, columns from toe to heel; rows stand closer at the root."""
-        distance = np.linspace(self.concave.toe, self.concave.heel, columns)
+    def grid(
+        self,
+        columns: int | Array = 61,
+        rows: int | Mapping[Side, Array] = 61,
+        across: int = 9,
+    ) -> ToothGrid:
+        """The whole tooth, columns from toe to heel; rows stand closer at the root.
+
+        Instead of counts: the columns' cone distances (n,), mm; each side's rows as shares (n, rows)
+        of the height from its lowest point, 0, to the tip, 1.
+        """
+        if isinstance(columns, int):
+            distance = np.linspace(self.concave.toe, self.concave.heel, columns)
+        else:
+            distance = np.asarray(columns, float)
+        if isinstance(rows, int):
+            t = np.linspace(0.0, 1.0, rows)
+            rows = dict.fromkeys(SIDES, (NEAR_ROOT * t + (1.0 - NEAR_ROOT) * t * t)[None, :])
         tip = np.asarray(self.concave.tip.at(distance), float)
-        made: dict[Side, Profile] = {s: self._profile(s, distance, tip, rows) for s in SIDES}
+        made: dict[Side, Profile] = {s: self._profile(s, distance, tip, rows[s]) for s in SIDES}
         pointed = ~(made["convex"].angle[:, -1] > made["concave"].angle[:, -1])
         for _ in range(LOWERINGS if pointed.any() else 0):
             crossed = _crossing(made["concave"], made["convex"])
             if not np.isfinite(crossed).any():
                 break
             tip = np.where(np.isfinite(crossed), crossed, tip)
-            made = {s: self._profile(s, distance, tip, rows) for s in SIDES}
+            made = {s: self._profile(s, distance, tip, rows[s]) for s in SIDES}
         height, angle = self._bottom(distance, made, across)
         return ToothGrid(distance, made["concave"], made["convex"], tip, pointed, height, angle)
 
-    def _profile(self, side: Side, distance: Array, tip: Array, rows: int) -> Profile:
+    def _profile(self, side: Side, distance: Array, tip: Array, share: Array) -> Profile:
         flank = self.flank(side)
         low, low_angle, s, turn = lowest(flank, distance)
-        t = np.linspace(0.0, 1.0, rows)
-        share = NEAR_ROOT * t + (1.0 - NEAR_ROOT) * t * t
-        height = low[:, None] + np.outer(tip - low, share)
+        height = low[:, None] + (tip - low)[:, None] * share
+        rows = height.shape[1]
         at = flank.at_cone(np.broadcast_to(distance[:, None], height.shape)[:, 1:], height[:, 1:])
         hand = np.array([1.0, -1.0 if flank.mirrored else 1.0, 1.0])
         position, normal = at.position * hand, at.normal * hand

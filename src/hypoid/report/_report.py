@@ -24,6 +24,7 @@ from ._figures_contact import (
 )
 from ._figures_cutter import cutter_figure
 from ._figures_mill import mill_figure
+from ._figures_tooth import tooth_figure, tooth_notes, tooth_rows
 from ._page import box, drawing, note, page
 from ._progress import Progress, silent
 from ._results import STEPS_A_DIRECTION, Results, results
@@ -36,6 +37,7 @@ from ._tables import (
     misalignment_table,
     pair_table,
     settings_table,
+    table,
     vh_table,
 )
 
@@ -104,6 +106,7 @@ def _sections(found: Results) -> list[tuple[str, str]]:
             + note("Summary sheet in the 2022 paper's signs; machine center to back counts to the pitch apex."),
         ),
         ("Tooth surfaces", _surfaces(pair)),
+        ("Tooth", _tooth(found)),
         (
             "Contact pattern",
             drawing(to_svg(pattern_figure(found)), f"Where a marking compound of {pair.marking_thickness * 1e3:g} um is wiped off, over all positions of all pairs; black: path of contact, refined on the exact surfaces.")
@@ -167,8 +170,6 @@ def _findings(found: Results) -> str:
 
 def _surfaces(pair: GearPair) -> str:
     """A few points of every flank with curvatures, and how good the charts are."""
-    from ._tables import table
-
     rows: list[tuple[object, ...]] = []
     for flank in pair.flanks():
         middle = 0.5 * (flank.toe + flank.heel)
@@ -199,6 +200,32 @@ def _surfaces(pair: GearPair) -> str:
     return table(head, rows) + note(
         "Points are exact: Newton leaves below 1e-9 mm. Curvatures are positive where the tooth is convex. "
         f"Charts (start values, gap field) are within {worst:.1e} rad of the surfaces."
+    )  # fmt: skip
+
+
+def _tooth(found: Results) -> str:
+    """Sections of both members as they are cut, their lands and depths, and the pair's backlash."""
+    pair = found.pair
+    head = (
+        "along the arc",
+        "top land [mm]",
+        "tooth [mm]",
+        "slot [mm]",
+        "slot bottom [mm]",
+        "whole depth [mm]",
+        "nominal [mm]",
+    )
+    words = tooth_notes(pair)
+    if found.backlash is not None and np.isfinite(found.backlash.wheel_angle):
+        b = found.backlash
+        words.append(
+            f"Backlash at the mean point {b.mean_normal:.4f} mm normal, {b.mean_transverse:.4f} mm transverse; "
+            f"at the outer pitch circle {b.outer_normal:.4f} and {b.outer_transverse:.4f} mm."
+        )
+    return (
+        drawing(to_svg(tooth_figure(pair)), "Sections S = const, unrolled about the axis; red: fillets; black: top land and slot bottom; dashed: pitch cone.")
+        + table(head, tooth_rows(pair))
+        + "".join(note(line) for line in words)
     )  # fmt: skip
 
 

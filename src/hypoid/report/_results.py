@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TypeVar
 
 import numpy as np
 
 from hypoid.contact import (
     STEPS,
+    Backlash,
     EaseOff,
     MisalignedContact,
     Misalignment,
@@ -17,6 +19,7 @@ from hypoid.contact import (
     TipInterference,
     UnloadedContact,
     VHResult,
+    backlash,
     contacts,
     ease_off,
     faults,
@@ -75,6 +78,13 @@ class Results:
     pair: GearPair
     drive: DirectionResult
     coast: DirectionResult
+
+    @cached_property
+    def backlash(self) -> Backlash | None:
+        """Backlash from both contacts; None without them."""
+        if self.drive.contact is None or self.coast.contact is None:
+            return None
+        return backlash(self.drive.contact, self.coast.contact)
 
     @property
     def both(self) -> tuple[DirectionResult, DirectionResult]:
