@@ -2,6 +2,7 @@
 
 from ._cam import Cam as Cam
 from ._cam import cam_roll as cam_roll
+from ._cam import check_roll as check_roll
 from ._cradle_machine import Workpiece as Workpiece
 from ._generator import Meshing as Meshing
 from ._generator import Placed as Placed

@@ -7,6 +7,7 @@ modifies the roll [lin1996, section 2.2, (18), (19), (24), (25), with the notes'
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -36,7 +37,7 @@ def cam_roll(cam: Cam, angle: Batch) -> tuple[Batch, Batch]:
 
     In JAX both carry exact derivatives of any order.
     """
-    xp = namespace(angle, cam.guide_angle, cam.setting)
+    xp = namespace(angle, cam)
     turn, share = cam.swivel_offset / cam.pitch_radius, cam.setting / cam.swivel_offset
     target = xp.sin(angle - cam.guide_angle) + xp.sin(cam.guide_angle)
     alpha = _newton(turn, share, target, np) if xp is np else _parameter(turn, share, target)
@@ -44,20 +45,34 @@ def cam_roll(cam: Cam, angle: Batch) -> tuple[Batch, Batch]:
     return cam.index_ratio * (turn * alpha + angle), cam.index_ratio * (1.0 + turn * by_angle)
 
 
-def uniform_limit(cam: Cam, half_breadth: float) -> float:
-    """Cam parameter |alpha|, rad, up to which the cam's profile has no cusp [lin1996, (9), notes item 4]."""
+def uniform_limit(cam: Cam, half_breadth: float | None = None) -> float:
+    """Cam parameter |alpha|, rad, up to which both flanks of the cam are its own profile.
+
+    Further out one has a cusp [lin1996, (9), notes item 4], or they have met: x_e = 0 in (7). Cams of
+    any breadth meet before their normal has turned by a quarter, C |alpha|/r_u = 90 deg.
+    """
     c, r = float(cam.swivel_offset), float(cam.pitch_radius)
+    quarter = 0.5 * math.pi * min(1.0, r / c)
+    if half_breadth is None:
+        return quarter
     sine, room = half_breadth * c, abs(r * r - c * c)
-    return math.asin(sine / room) if sine < room else math.pi / 2
+    limit = min(quarter, math.asin(sine / room)) if sine < room else quarter
+
+    def across(alpha: float) -> float:
+        turned = c * alpha / r
+        wide = (half_breadth + c * math.sin(alpha)) * math.cos(turned)
+        return r * math.cos(alpha) * math.sin(turned) - wide
+
+    return limit if across(limit) <= 0.0 else rising_root(across, 0.0, limit)
 
 
 def cradle_limits(cam: Cam, half_breadth: float | None = None) -> tuple[float, float]:
-    """Cradle angles, rad, between which the cam rolls uniformly [lin1996, (24) at the limit of (9)].
+    """Cradle angles, rad, between which the cam rolls uniformly [lin1996, (24) at `uniform_limit`].
 
-    Without a half breadth only the swivel's own limit counts, where the guide stands across.
+    Without a half breadth they are those of a cam as wide as can be: no cam rolls further.
     """
     guide, reach = float(cam.guide_angle), float(cam.setting) / float(cam.pitch_radius)
-    limit = math.pi / 2 if half_breadth is None else uniform_limit(cam, half_breadth)
+    limit = uniform_limit(cam, half_breadth)
     limit = min(limit, math.acos(min(1.0, abs(reach))))  # beyond, the shaft may turn back
     turn, share = (
         float(cam.swivel_offset / cam.pitch_radius),
@@ -81,13 +96,27 @@ def check_roll(
     raise DesignError([Problem(path, given, expected, "a cam of larger pitch radius or breadth")])
 
 
+def rising_root(of: Callable[[float], float], low: float, high: float) -> float:
+    """Where a rising function is zero between low and high, by halving down to rounding."""
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if of(middle) < 0.0 else (low, middle)
+    return 0.5 * (low + high)
+
+
 def _slope(turn: Batch, share: Batch, alpha: Batch, xp: Any) -> Batch:
     return share * turn * xp.cos(turn * alpha) + xp.cos(alpha)
 
 
 def _newton(turn: Batch, share: Batch, target: Batch, xp: Any) -> Batch:
-    """Cam parameter alpha of share sin(turn alpha) + sin(alpha) = target, the root next to zero."""
+    """Cam parameter alpha of share sin(turn alpha) + sin(alpha) = target, the root next to zero.
+
+    From the tangent at zero, but not from beyond a quarter turn of the cam (`uniform_limit`): up to
+    there the left side bends one way, and no start overshoots.
+    """
+    quarter = 0.5 * math.pi / turn
     alpha = xp.arcsin(xp.clip(target / (1.0 + share * turn), -0.99, 0.99))
+    alpha = xp.clip(alpha, -quarter, quarter)
     for _ in range(STEPS):
         value = share * xp.sin(turn * alpha) + xp.sin(alpha) - target
         alpha = alpha - value / _slope(turn, share, alpha, xp)

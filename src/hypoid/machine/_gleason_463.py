@@ -25,7 +25,7 @@ import numpy as np
 
 from hypoid.geometry import DesignError, Problem
 
-from ._cam import Cam, cradle_limits
+from ._cam import Cam, cradle_limits, rising_root
 from ._change_gears import EXACT, train
 from ._cradle_machine import (
     Matrix,
@@ -189,9 +189,9 @@ def machine_cam(dials: Gleason463Dials, work: Workpiece) -> Cam:
             expected += " of index interval to teeth: the slots would not close"
             a, b, c, d = dials.index_gears
             shown = f"{a}/{b} x {c}/{d} = {given:.6g}"
-            found.append(
-                Problem(f"{path}.index_gears", shown, expected, "[48, 80, 50, 81] for 10/27")
-            )
+            near, _ = gears_of(wanted, "an index", f"{path}.index_gears", "")
+            example = str(list(near or (48, 80, 50, 81)))
+            found.append(Problem(f"{path}.index_gears", shown, expected, example))
     if found or cam is None:
         raise DesignError(found)
     ratio = train(dials.index_gears)
@@ -242,16 +242,13 @@ def shaft_angle(cam: Cam, cradle: float) -> float:
     """Input shaft angle alpha_e, rad, at a cradle angle alpha_a, both the paper's [lin1996, (18)]."""
     c, r, delta = float(cam.swivel_offset), float(cam.pitch_radius), float(cam.setting)
     guide = float(cam.guide_angle)
-    shaft = cradle - guide + c / (r + delta) * cradle
-    for _ in range(50):
-        off = cradle - shaft - guide
-        value = c * (math.sin(guide) + math.sin(r / c * off) + math.sin(cradle - guide))
-        value += delta * math.sin(off)
-        step = value / (r * math.cos(r / c * off) + delta * math.cos(off))
-        shaft += step
-        if abs(step) < 1e-15 * max(1.0, abs(shaft)):
-            break
-    return shaft
+    reach = c / r * math.acos(min(1.0, abs(delta) / r))  # up to which (18) rises
+
+    def contact(off: float) -> float:
+        turned = math.sin(guide) + math.sin(r / c * off) + math.sin(cradle - guide)
+        return c * turned + delta * math.sin(off)
+
+    return cradle - guide - rising_root(contact, -reach, reach)
 
 
 def _constants(work: Workpiece) -> Gleason463Constants:

@@ -142,7 +142,6 @@ def from_basic(
     tilt, swivel = abs(settings.tilt_angle), settings.swivel_angle
     if settings.tilt_angle < 0.0:
         swivel += math.pi
-    lean = math.sin(tilt / 2) / math.sin(constants.wedge)
     limit = 2.0 * constants.wedge
     if not tilt <= limit + 1e-12:
         expected = f"a tilt from 0 deg to {shown(limit, 'angle')} (twice the wedge angle"
@@ -166,6 +165,7 @@ def from_basic(
         found.append(Problem(f"{path}.helical_motion", given, expected, "leave it out"))
     if found:
         raise DesignError(found)
+    lean = math.sin(tilt / 2) / math.sin(constants.wedge)
     spindle = 2.0 * math.asin(min(1.0, lean))
     dials = TiltHeadDials(
         eccentric_angle=eccentric,
