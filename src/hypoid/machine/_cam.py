@@ -12,12 +12,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import jax
-import jax.numpy as jnp
 import numpy as np
 
-from hypoid.geometry import Batch, DesignError, Problem, Scalar, namespace
+from hypoid.geometry import Batch, DesignError, Problem, Scalar, namespace, once, sine_cosine
 
-STEPS = 7  # Newton, from the root for small alpha
+STEPS = 5  # of third order, from the root for small alpha
 
 
 @jax.tree_util.register_dataclass
@@ -39,9 +38,10 @@ def cam_roll(cam: Cam, angle: Batch) -> tuple[Batch, Batch]:
     """
     xp = namespace(angle, cam)
     turn, share = cam.swivel_offset / cam.pitch_radius, cam.setting / cam.swivel_offset
-    target = xp.sin(angle - cam.guide_angle) + xp.sin(cam.guide_angle)
-    alpha = _newton(turn, share, target, np) if xp is np else _parameter(turn, share, target)
-    by_angle = xp.cos(angle - cam.guide_angle) / _slope(turn, share, alpha, xp)
+    sine, cosine = _sine_cosine(angle - cam.guide_angle)
+    target = sine + _sine_cosine(cam.guide_angle)[0]
+    alpha = _newton(turn, share, target) if xp is np else _parameter(turn, share, target)
+    by_angle = cosine / _rise(turn, share, alpha)[1]
     return cam.index_ratio * (turn * alpha + angle), cam.index_ratio * (1.0 + turn * by_angle)
 
 
@@ -104,35 +104,48 @@ def rising_root(of: Callable[[float], float], low: float, high: float) -> float:
     return 0.5 * (low + high)
 
 
-def _slope(turn: Batch, share: Batch, alpha: Batch, xp: Any) -> Batch:
-    return share * turn * xp.cos(turn * alpha) + xp.cos(alpha)
+def _sine_cosine(angle: Batch) -> tuple[Batch, Batch]:
+    return (np.sin(angle), np.cos(angle)) if namespace(angle) is np else sine_cosine(angle)
 
 
-def _newton(turn: Batch, share: Batch, target: Batch, xp: Any) -> Batch:
+def _rise(turn: Batch, share: Batch, alpha: Batch) -> tuple[Batch, Batch, Batch]:
+    """The cam's share sin(turn alpha) + sin(alpha), and its first two derivatives by alpha."""
+    (wide, wide_by), (sine, cosine) = once((_sine_cosine(turn * alpha), _sine_cosine(alpha)))
+    return (
+        share * wide + sine,
+        share * turn * wide_by + cosine,
+        -share * turn * turn * wide - sine,
+    )
+
+
+def _newton(turn: Batch, share: Batch, target: Batch) -> Batch:
     """Cam parameter alpha of share sin(turn alpha) + sin(alpha) = target, the root next to zero.
 
-    From the tangent at zero, but not from beyond a quarter turn of the cam (`uniform_limit`): up to
-    there the left side bends one way, and no start overshoots.
+    Halley's steps from the tangent at zero, but not from beyond a quarter turn of the cam
+    (`uniform_limit`): up to there the left side bends one way, and no start overshoots.
     """
+    xp = namespace(turn, share, target)
     quarter = 0.5 * math.pi / turn
-    alpha = xp.arcsin(xp.clip(target / (1.0 + share * turn), -0.99, 0.99))
-    alpha = xp.clip(alpha, -quarter, quarter)
+    x = xp.clip(target / (1.0 + share * turn), -0.99, 0.99)
+    square = x * x
+    alpha = once(xp.clip(x * (1.0 + square * (1 / 6 + square * 3 / 40)), -quarter, quarter))
     for _ in range(STEPS):
-        value = share * xp.sin(turn * alpha) + xp.sin(alpha) - target
-        alpha = alpha - value / _slope(turn, share, alpha, xp)
+        value, slope, bend = _rise(turn, share, alpha)
+        value = value - target
+        alpha = once(alpha - value / (slope - 0.5 * value * bend / slope))
     return alpha
 
 
 @jax.custom_jvp
 def _parameter(turn: Batch, share: Batch, target: Batch) -> Batch:
     """`_newton` with the derivatives of the root itself, not of the search for it."""
-    return _newton(turn, share, target, jnp)
+    return _newton(turn, share, target)
 
 
 @_parameter.defjvp
 def _parameter_jvp(at: tuple[Any, ...], by: tuple[Any, ...]) -> tuple[Batch, Batch]:
     (turn, share, target), (turn_by, share_by, target_by) = at, by
     alpha = _parameter(turn, share, target)
-    moved = target_by - share_by * jnp.sin(turn * alpha)
-    moved = moved - share * alpha * jnp.cos(turn * alpha) * turn_by
-    return alpha, moved / _slope(turn, share, alpha, jnp)
+    wide, wide_by = sine_cosine(turn * alpha)
+    moved = target_by - share_by * wide - share * alpha * wide_by * turn_by
+    return alpha, moved / _rise(turn, share, alpha)[1]
