@@ -125,15 +125,19 @@ def test_deviation_of_a_flank_from_itself_and_of_a_larger_cutter_swing() -> None
 
 
 def test_every_dial_out_of_range_is_named_at_once() -> None:
+    """Where the file has its key: at the flank, or at the member for both."""
     spec = spec_of("tsay-lin-1993")
     wrong = dict(
         spec.pinion.concave.dials, cutter_spindle_rotation_angle=radians(200.0), sliding_base=1e4
     )
-    flank = replace(spec.pinion.concave, dials=wrong)
+    at_flank = frozenset({"settings.sliding_base"})
+    flank = replace(spec.pinion.concave, dials=wrong, at_flank=at_flank)
     with pytest.raises(DesignError) as caught:
         build(replace(spec, pinion=replace(spec.pinion, concave=flank)))
-    paths = {problem.path for problem in caught.value.problems}
-    assert "pinion.concave.settings.sliding_base" in paths
+    assert [problem.path for problem in caught.value.problems] == [
+        "pinion.settings.cutter_spindle_rotation_angle",
+        "pinion.concave.settings.sliding_base",
+    ]
 
 
 def test_an_edge_that_does_not_fit_the_point_width_is_named() -> None:

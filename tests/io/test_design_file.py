@@ -119,7 +119,7 @@ def test_settings_of_a_flank_go_before_those_of_its_member() -> None:
         ("cutting__method", "formate", '"formate"', "exact-face-hobbed"),
         ("cutting__blade_groups", None, "nothing", "a whole number"),
         ("cutting__tip_relief", "yes", '"yes"', "a table"),
-        ("pinion__concave__settings__modified_roll", [0.1, "x"], '"x"', "plain numbers"),
+        ("pinion__concave__settings__modified_roll", [0.1, "x"], '[0.1, "x"]', "plain numbers"),
         ("schema", 2, "2", "the version of this format"),
         ("pair", 3, "3", "a table"),
         ("assumed", [{"value": 3, "reason": "r"}], "3", "the path of a key"),

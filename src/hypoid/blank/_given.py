@@ -60,15 +60,17 @@ def given_pair_blank(
         With every number that leaves no blank.
     """
     problems = [*_faults("pinion", pinion), *_faults("wheel", wheel)]
-    reach = pinion.mean_cone_distance + wheel.mean_cone_distance
-    if not abs(offset) < reach:
-        problems.append(
-            Problem(
-                "pair.offset", f"{offset:g} mm", f"less than {reach:.4g} mm", 'offset = "20 mm"'
-            )
-        )
     if problems:
         raise DesignError(problems)
+    radius, mate = (one.mean_cone_distance * sin(one.pitch_angle) for one in (wheel, pinion))
+    # The pitch point lies on both cones (ISO 23509, (113) and (114)).
+    reach = radius + mate * cos(wheel.pitch_angle) / cos(pinion.pitch_angle)
+    reach *= min(1.0, cos(pinion.pitch_angle) / sin(shaft_angle))
+    if not abs(offset) < reach:
+        expected = f"less than {reach:.4g} mm: no pitch point lies on both cones"
+        raise DesignError(
+            [Problem("pair.offset", f"{offset:g} mm", expected, f'offset = "{0.2 * reach:.3g} mm"')]
+        )
     cones = pitch_cones(
         shaft_angle=shaft_angle,
         offset=offset,
@@ -77,8 +79,8 @@ def given_pair_blank(
         wheel_pitch_angle=wheel.pitch_angle,
         pinion_spiral_angle=pinion.mean_spiral_angle,
         wheel_spiral_angle=wheel.mean_spiral_angle,
-        pinion_mean_radius=pinion.mean_cone_distance * sin(pinion.pitch_angle),
-        wheel_mean_radius=wheel.mean_cone_distance * sin(wheel.pitch_angle),
+        pinion_mean_radius=mate,
+        wheel_mean_radius=radius,
     )
     opposite: Hand = "right" if pinion_hand == "left" else "left"
     outer_diameter = 2.0 * wheel.outer_cone_distance * sin(wheel.pitch_angle)

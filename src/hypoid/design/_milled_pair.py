@@ -7,8 +7,9 @@ them; where the sheet does not give a root cone, it is the line along the lowest
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -36,8 +37,10 @@ from hypoid.machine import (
 from hypoid.pair import Assumption, GearPair, Member
 
 from ._blank import sheet_blank
+from ._sheet_faults import at_file, cut_faults
 from ._sheet_spec import BladeSpec, FlankSpec, MemberSpec, SummarySheetSpec
 
+T = TypeVar("T")
 SIDES: tuple[Side, Side] = ("concave", "convex")
 SPARE = 1.6  # times both members' addenda: a blade surely longer than the tooth is deep
 
@@ -57,6 +60,34 @@ class Job:
     def name(self) -> str:
         return self.blank.name
 
+    def flank(self, side: Side) -> FlankSpec:
+        return self.spec.concave if side == "concave" else self.spec.convex
+
+    def machine(self, flank: FlankSpec) -> Any:
+        """Constants of the physical machine that cuts a flank."""
+        return constants_of(flank.machine, self.constants.get(flank.machine))
+
+
+@dataclass(frozen=True)
+class Cut:
+    """What cuts one flank of a member."""
+
+    job: Job
+    side: Side
+    settings: MachineSettings
+    head: FaceMillHead
+
+    @property
+    def spec(self) -> FlankSpec:
+        return self.job.flank(self.side)
+
+    @property
+    def half_breadth(self) -> float | None:
+        """Of the cam, mm, where there is one and it is known."""
+        if self.settings.cam is None:
+            return None
+        return self.job.machine(self.spec).cams[self.spec.dials["cam_number"]].half_breadth
+
 
 def build_milled(spec: SummarySheetSpec) -> GearPair:
     """The pair of a summary sheet.
@@ -73,18 +104,22 @@ def build_milled(spec: SummarySheetSpec) -> GearPair:
         for member, own in ((spec.pinion, blank.pinion), (spec.wheel, blank.wheel))
     ]
     problems: list[Problem] = []
-    ready: list[dict[Side, tuple[MachineSettings, FaceMillHead]]] = []
+    ready: list[Cut] = []
     for job in jobs:
-        cuts: dict[Side, tuple[MachineSettings, FaceMillHead]] = {}
         for side in SIDES:
-            try:
-                cuts[side] = (_settings(job, side), _head(job, side))
-            except DesignError as error:
-                problems += [p for p in error.problems if p not in problems]
-        ready.append(cuts)
-    if problems:
-        raise DesignError(problems)
-    pinion, wheel = (_member(job, cuts) for job, cuts in zip(jobs, ready, strict=True))
+            settings = _tried(_settings, job, side, problems)
+            head = _tried(_head, job, side, problems)
+            if settings is not None and head is not None:
+                ready.append(Cut(job, side, settings, head))
+    _raise(problems)
+    flanks = [_flank(cut) for cut in ready]
+    for cut, flank in zip(ready, flanks, strict=True):
+        problems += cut_faults(flank, cut.spec, cut.half_breadth)
+    _raise(problems)
+    pinion, wheel = (
+        _member(job, ready[n : n + 2], flanks[n : n + 2])
+        for job, n in zip(jobs, (0, 2), strict=True)
+    )
     return GearPair(
         title=spec.title,
         source=spec.source,
@@ -94,6 +129,23 @@ def build_milled(spec: SummarySheetSpec) -> GearPair:
         wheel=wheel,
         marking_thickness=spec.marking_thickness,
     )
+
+
+def _tried(
+    make: Callable[[Job, Side], T], job: Job, side: Side, problems: list[Problem]
+) -> T | None:
+    """What is made of a flank's sheet; its problems are added to those so far if it cannot be."""
+    try:
+        return make(job, side)
+    except DesignError as error:
+        problems += (at_file(p, job.name, job.spec) for p in error.problems)
+        return None
+
+
+def _raise(problems: list[Problem]) -> None:
+    """DesignError with all problems, if there are any; what both flanks share is told once."""
+    if problems:
+        raise DesignError(dict.fromkeys(problems))
 
 
 def _job(spec: MemberSpec, blank: MemberBlank, reach: float, constants: Any) -> Job:
@@ -109,7 +161,7 @@ def _job(spec: MemberSpec, blank: MemberBlank, reach: float, constants: Any) -> 
 
 def _settings(job: Job, side: Side) -> MachineSettings:
     """Basic settings of a flank, in the chain's signs."""
-    flank: FlankSpec = getattr(job.spec, side)
+    flank = job.flank(side)
     path = f"{job.name}.{side}.settings"
     if flank.machine == "basic":
         apex = job.blank.pitch_apex_beyond_crossing_point
@@ -119,8 +171,7 @@ def _settings(job: Job, side: Side) -> MachineSettings:
         settings = from_sheet(sheet, apex)
     else:
         machine = MACHINES[flank.machine]
-        constants = constants_of(flank.machine, job.constants.get(flank.machine))
-        work = Workpiece(job.spec.teeth, job.spec.hand, constants, path)
+        work = Workpiece(job.spec.teeth, job.spec.hand, job.machine(flank), path)
         dials = machine.dials(**flank.dials)
         machine.check(dials, path)
         settings = machine.to_basic(dials, work)
@@ -136,66 +187,72 @@ def _curve(blade: BladeSpec) -> BladeCurve | None:
     return None
 
 
+def _land(blade: BladeSpec) -> float:
+    """Flat at the tips, mm: half the point width, or all that an edge arc may want of a blade alone."""
+    if blade.land is not None:
+        return blade.land
+    return max(0.5 * blade.point_radius, 1.2 * blade.edge_radius)
+
+
 def _head(job: Job, side: Side) -> FaceMillHead:
     """The head of a flank: one blade, or both where one cutter cuts both sides."""
-    blades: dict[Side, MillBlade] = {}
-    for of in SIDES:
-        blade: BladeSpec = getattr(job.spec, of).blade
-        blades[of] = MillBlade(
+    together = job.flank(side).blade.land is not None
+
+    def blade(of: Side) -> MillBlade | None:
+        spec = job.flank(of).blade
+        if not (together or of == side):
+            return None
+        return MillBlade(
             name="outer" if of == "concave" else "inner",
-            point_radius=blade.point_radius,
-            angle=blade.angle,
-            edge_radius=blade.edge_radius,
-            land=blade.land if blade.land is not None else blade.edge_radius,
-            height=blade.height or job.reach,
-            profile=_curve(blade),
-            toprem=None if blade.toprem is None else Toprem(*blade.toprem),
-            flankrem=None if blade.flankrem is None else Flankrem(*blade.flankrem),
+            point_radius=spec.point_radius,
+            angle=spec.angle,
+            edge_radius=spec.edge_radius,
+            land=_land(spec),
+            height=spec.height or job.reach,
+            profile=_curve(spec),
+            toprem=None if spec.toprem is None else Toprem(*spec.toprem),
+            flankrem=None if spec.flankrem is None else Flankrem(*spec.flankrem),
         )
-    both = getattr(job.spec, side).blade.land is not None
-    head = FaceMillHead(
-        outer=blades["concave"] if both or side == "concave" else None,
-        inner=blades["convex"] if both or side == "convex" else None,
-    )
-    return head.checked(
+
+    return FaceMillHead(outer=blade("concave"), inner=blade("convex")).checked(
         f"{job.name}.cutter", (f"{job.name}.concave.blade", f"{job.name}.convex.blade")
     )
 
 
-def _member(job: Job, cuts: dict[Side, tuple[MachineSettings, FaceMillHead]]) -> Member:
-    flanks = {side: _flank(job, side, *cuts[side]) for side in SIDES}
+def _member(job: Job, cuts: list[Cut], flanks: list[Flank]) -> Member:
+    """A member of both its flanks, concave first; each flank's root is its own lowest line."""
+    concave, convex = (replace(trimmed(flank), root=lowest_line(flank)) for flank in flanks)
     blank = job.blank
     if math.isnan(blank.mean_dedendum):
-        lines = [flanks[side].root for side in SIDES]
-        mean = -float(np.mean([line.at(blank.mean_cone_distance) for line in lines]))
-        slope = float(np.mean([line.slope for line in lines]))
+        roots = concave.root, convex.root
+        mean = -float(np.mean([root.at(blank.mean_cone_distance) for root in roots]))
+        slope = float(np.mean([root.slope for root in roots]))
         blank = with_root_line(blank, mean, blank.pitch_angle + math.atan(slope))
-    heads: dict[Side, FaceMillHead] = {side: cuts[side][1] for side in SIDES}
-    if heads["convex"] == heads["concave"]:
-        heads["convex"] = heads["concave"]
-    return Member(blank, heads, flanks["concave"], flanks["convex"])
+    outside, inside = (cut.head for cut in cuts)
+    heads: dict[Side, FaceMillHead] = {"concave": outside}
+    heads["convex"] = outside if inside == outside else inside
+    return Member(blank, heads, concave, convex)
 
 
-def _flank(job: Job, side: Side, settings: MachineSettings, head: FaceMillHead) -> Flank:
-    pieces = head.pieces("outer" if side == "concave" else "inner")
+def _flank(cut: Cut) -> Flank:
+    job, settings = cut.job, cut.settings
+    pieces = cut.head.pieces("outer" if cut.side == "concave" else "inner")
     if not settings.generated:  # theta = 0 where the blade passes the mean point
         turn = form_turn(settings, job.blank)
         pieces = {name: piece.turned(turn) for name, piece in pieces.items()}
-    blank = job.blank
-    flank = cut_flank(
+    return cut_flank(
         job.name,
-        side,
+        cut.side,
         settings,
         pieces,
         job.cone,
         mirrored=job.spec.hand == "right",
-        toe=blank.inner_cone_distance,
-        heel=blank.outer_cone_distance,
+        toe=job.blank.inner_cone_distance,
+        heel=job.blank.outer_cone_distance,
         tip=job.tip,
         root=Border(-1.5 * job.reach, 0.0),
         way=best_way(settings, revolution=True),
     )
-    return replace(trimmed(flank), root=lowest_line(flank))
 
 
 def form_turn(settings: MachineSettings, blank: MemberBlank) -> float:

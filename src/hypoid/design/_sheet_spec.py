@@ -41,6 +41,8 @@ class FlankSpec:
     machine: str  # "basic", or a physical machine by name
     dials: Mapping[str, Any]  # that machine's dials by name: numbers, tooth counts, motions
     blade: BladeSpec
+    # Keys that the file gives at the flank, as "blade.angle"; all others stand at its member.
+    at_flank: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,19 @@ from __future__ import annotations
 
 from typing import Literal
 
-from ._keys import DEG, EPS, LARGEST, Angle, DesignTable, Length, Pair, PerLength, Settings, Table
+from ._keys import (
+    DEG,
+    EPS,
+    LARGEST,
+    MOST_TEETH,
+    Angle,
+    DesignTable,
+    Length,
+    Pair,
+    PerLength,
+    Settings,
+    Table,
+)
 from ._keys import key as _key
 
 
@@ -28,7 +40,7 @@ class Member(Table):
 class Pinion(Member):
     """[pinion]."""
 
-    teeth: int = _key("a whole number from 1 to 1000", 6, ge=1, le=1000)
+    teeth: int = _key("a whole number from 1 to 1000", 6, ge=1, le=MOST_TEETH)
     hand: Literal["left", "right"] = _key('"left" or "right"', "left")
     mean_spiral_angle: Angle = _key(
         "an angle from 0 to below 80 deg", "65 deg", ge=0, lt=80 * DEG - EPS
@@ -38,7 +50,7 @@ class Pinion(Member):
 class Wheel(Member):
     """[wheel]; the mean pitch radius or the mean pitch diameter, one of them."""
 
-    teeth: int = _key("a whole number from 1 to 1000, above pinion.teeth", 73, ge=1, le=1000)
+    teeth: int = _key("a whole number from 1 to 1000, above pinion.teeth", 73, ge=1, le=MOST_TEETH)
     mean_pitch_radius: Length | None = _key(
         "a length above 0", "130 mm", default=None, gt=0, le=LARGEST
     )

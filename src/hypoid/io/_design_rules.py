@@ -6,7 +6,8 @@ from collections.abc import Iterator, Mapping
 
 from hypoid.geometry import Problem
 
-from ._document import Document, number_at, shown, value_at
+from ._document import Document, assigned, number_at, shown, value_at
+from ._keys import MOST_TEETH
 
 
 def design_rules(document: Document) -> Iterator[Problem]:
@@ -21,9 +22,9 @@ def design_rules(document: Document) -> Iterator[Problem]:
                 "wheel.mean_pitch_radius", given, expected, 'mean_pitch_radius = "130 mm"'
             )
     few, many = (value_at(document, (member, "teeth")) for member in ("pinion", "wheel"))
-    if isinstance(few, int) and isinstance(many, int) and 1 <= many <= few:
+    if isinstance(few, int) and isinstance(many, int) and 1 <= many <= few <= MOST_TEETH:
         expected = f"more teeth than the pinion, which has {few}"
-        yield Problem("wheel.teeth", str(many), expected, f"teeth = {few + 1}")
+        yield Problem("wheel.teeth", str(many), expected, assigned("teeth", few + 1))
     radius = number_at(document, "wheel.mean_pitch_radius", "length")
     if radius is None:
         diameter = number_at(document, "wheel.mean_pitch_diameter", "length")
@@ -37,5 +38,5 @@ def design_rules(document: Document) -> Iterator[Problem]:
         length = number_at(document, path, "length")
         if length is not None and length >= limit:
             key, given = path.split(".")[1], shown(value_at(document, tuple(path.split("."))))
-            example = f'{key} = "{0.25 * limit:g} mm"'
+            example = assigned(key, f"{0.25 * limit:g} mm")
             yield Problem(path, given, f"less than {limit:g} mm, {why}", example)

@@ -10,10 +10,12 @@ from typing import Any
 from pydantic import BaseModel
 
 from ._keys import keys_of
-from ._quantity import Kind, QuantityError, parse
+from ._quantity import Kind, QuantityError, parse, written
 
 Location = tuple[int | str, ...]
 Document = Mapping[str, Any]
+MEMBERS = ("pinion", "wheel")
+SHORT, DEPTH = 60, 6  # characters and levels of what messages show
 
 
 def value_at(document: Any, loc: Location) -> Any:
@@ -48,28 +50,55 @@ def path_of(loc: Location) -> str:
     return "".join(parts).removeprefix(".")
 
 
+def paths(document: Document) -> list[str]:
+    """Every key of a file as a dotted path, however deep."""
+    found: list[str] = []
+    tables: list[tuple[str, Document]] = [("", document)]
+    while tables:
+        before, table = tables.pop()
+        for key, value in table.items():
+            found.append(f"{before}{key}")
+            if isinstance(value, Mapping):
+                tables.append((f"{before}{key}.", value))  # pyright: ignore[reportUnknownArgumentType]
+    return found
+
+
 def line(model: type[BaseModel], key: str) -> str:
     """A line of the file that would do for a key of a table."""
-    return f"{key} = {toml((keys_of(model)[key].examples or [''])[0])}"
+    return assigned(key, (keys_of(model)[key].examples or [""])[0])
+
+
+def assigned(key: str, value: Any) -> str:
+    """A line that gives a key a value."""
+    return f"{key} = {toml(value)}"
+
+
+def left_out(key: str, value: Any) -> str:
+    """The line of a key that must not stand, as a comment."""
+    return f"# {key} = {shown(value)}"
 
 
 def shown(value: Any) -> str:
     """What was given, short."""
-    text = "a table" if isinstance(value, Mapping) else "nothing" if value is None else toml(value)
-    return text if len(text) <= 60 else f"{text[:57]}..."
+    text = "nothing" if value is None else toml(value)
+    if len(text) <= SHORT:
+        return text
+    return "a table" if isinstance(value, Mapping) else f"{text[: SHORT - 3]}..."
 
 
-def toml(value: Any) -> str:
-    """A value in the notation of the file."""
+def toml(value: Any, depth: int = DEPTH) -> str:
+    """A value in the notation of the file, as deep as it matters."""
     match value:
+        case dict() | list() if not depth:
+            return "..."
         case dict():
-            return "{" + ", ".join(f"{k} = {toml(v)}" for k, v in value.items()) + "}"
+            return "{" + ", ".join(f"{k} = {toml(v, depth - 1)}" for k, v in value.items()) + "}"
         case list():
-            return "[" + ", ".join(map(toml, value)) + "]"
+            return "[" + ", ".join(toml(entry, depth - 1) for entry in value) + "]"
         case str() | bool():
             return json.dumps(value, ensure_ascii=False)
         case _:
-            return str(value)
+            return written(value)
 
 
 def did_you_mean(word: str, words: Sequence[str]) -> str:

@@ -18,6 +18,8 @@ from ._quantity import Kind, QuantityError, parse
 
 DEG = pi / 180
 LARGEST = 1e5  # mm; beyond any gear, within any arithmetic
+MOST = 1e3  # of a coefficient, in the unit of its key
+MOST_TEETH = 1000
 EPS = 1e-9  # rad; a limit that is itself allowed, through the rounding of its conversion
 
 
@@ -41,9 +43,29 @@ PerLength = Annotated[float, BeforeValidator(read_as("per_length")), _TEXT]
 LengthPerAngle = Annotated[float, BeforeValidator(read_as("length_per_angle")), _TEXT]
 
 
+Coefficient = Annotated[float, Field(ge=-MOST, le=MOST)]
+
+
 def key(expected: str, example: object, **more: Any) -> Any:
     """A key of a table: what is expected of it, an example, and its range or default."""
     return Field(description=expected, examples=[example], **more)
+
+
+def any_length(example: str) -> Any:
+    """A key for a length of either sign that need not be given."""
+    return key("a length", example, default=None, ge=-LARGEST, le=LARGEST)
+
+
+def any_angle(example: str) -> Any:
+    """A key for an angle of either sign that need not be given."""
+    most = 360 * DEG + EPS
+    return key("an angle of up to 360 deg either way", example, default=None, ge=-most, le=most)
+
+
+def lead(example: str) -> Any:
+    """A key for a length per angle of either sign that need not be given."""
+    expected = f"a length per angle of up to {MOST:g} mm/rad either way"
+    return key(expected, example, default=None, ge=-MOST, le=MOST)
 
 
 class Table(BaseModel):
@@ -55,18 +77,22 @@ class Table(BaseModel):
 class Settings(Table):
     """Basic machine settings of a flank, in the words of a summary sheet; what is given holds."""
 
-    radial_distance: Length | None = key("a length above 0", "108.966 mm", default=None, gt=0)
-    cradle_angle: Angle | None = key("an angle", "47.606 deg", default=None)
-    tilt_angle: Angle | None = key("an angle", "0 deg", default=None)
-    swivel_angle: Angle | None = key("an angle", "0 deg", default=None)
-    blank_offset: Length | None = key("a length", "-55.489 mm", default=None)
-    machine_root_angle: Angle | None = key("an angle", "10.791 deg", default=None)
-    machine_center_to_back: Length | None = key("a length", "18.029 mm", default=None)
-    sliding_base: Length | None = key("a length", "-3.376 mm", default=None)
-    ratio_of_roll: float | None = key("a plain number above 0", 12.431511, default=None, gt=0)
-    helical_motion: LengthPerAngle | None = key("length per angle", "0.1 mm/rad", default=None)
-    modified_roll: list[float] | None = key(
-        "up to 5 plain numbers, of orders 2 to 6",
+    radial_distance: Length | None = key(
+        "a length above 0", "108.966 mm", default=None, gt=0, le=LARGEST
+    )
+    cradle_angle: Angle | None = any_angle("47.606 deg")
+    tilt_angle: Angle | None = any_angle("0.3 deg")
+    swivel_angle: Angle | None = any_angle("-35 deg")
+    blank_offset: Length | None = any_length("-55.489 mm")
+    machine_root_angle: Angle | None = any_angle("10.791 deg")
+    machine_center_to_back: Length | None = any_length("18.029 mm")
+    sliding_base: Length | None = any_length("-3.376 mm")
+    ratio_of_roll: float | None = key(
+        "a plain number above 0, up to 1000", 12.431511, default=None, gt=0, le=1000
+    )
+    helical_motion: LengthPerAngle | None = lead("0.1 mm/rad")
+    modified_roll: list[Coefficient] | None = key(
+        f"up to 5 plain numbers, of orders 2 to 6, each up to {MOST:g} either way",
         [0.0, 0.001],
         default=None,
         max_length=5,
@@ -80,7 +106,7 @@ class Pair(Table):
         "an angle from 30 to 150 deg", "90 deg", ge=30 * DEG - EPS, le=150 * DEG + EPS
     )
     offset: Length = key(
-        "a length of 0 or more, within the wheel's mean pitch radius", "55 mm", ge=0
+        "a length of 0 or more, within the wheel's mean pitch radius", "55 mm", ge=0, le=LARGEST
     )
 
 

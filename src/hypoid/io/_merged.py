@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from ._document import Document, number_at, table_at
+from hypoid.geometry import Problem
+
+from ._document import Document, left_out, line, number_at, shown, table_at
+from ._keys import Table, keys_of
 from ._quantity import Kind
 
-MEMBERS = ("pinion", "wheel")
 SIDES = ("concave", "convex")
 
 
@@ -19,6 +21,7 @@ class Merged:
     member: str
     side: str
     name: str
+    model: type[Table]
     of_member: Document
     of_flank: Document
     of_mate: Document  # the same member's other flank
@@ -34,6 +37,11 @@ class Merged:
         """What holds for this flank, None where nothing does."""
         return self.of_flank.get(key, self.of_member.get(key))
 
+    def word(self, key: str) -> str:
+        """What holds for this flank as a word, "" where nothing does."""
+        value = self.get(key)
+        return "" if value is None else value if isinstance(value, str) else shown(value)
+
     def number(self, key: str, kind: Kind) -> float | None:
         """The quantity under a key, None where there is none that can be read."""
         return number_at({key: self.get(key)}, key, kind)
@@ -44,14 +52,25 @@ class Merged:
         where = f"{self.member}.{self.side}" if at_flank else self.member
         return f"{where}.{self.name}.{key}"
 
+    def wanted(self, key: str, expected: str = "") -> Problem:
+        """A fault of a key's value, or that it is missing; expected is what the key always wants."""
+        expected = expected or str(keys_of(self.model)[key].description)
+        return Problem(self.path(key), shown(self.get(key)), expected, line(self.model, key))
 
-def merged(document: Document, member: str, side: str, name: str) -> Merged:
-    """The table `settings` or `blade` of a flank."""
+    def unwanted(self, key: str, why: str) -> Problem:
+        """A key that must not stand here, and why."""
+        given = self.get(key)
+        return Problem(self.path(key), shown(given), f"nothing: {why}", left_out(key, given))
+
+
+def merged(document: Document, member: str, side: str, name: str, model: type[Table]) -> Merged:
+    """The table `settings` or `blade` of a flank, and the model of it."""
     mate = SIDES[1 - SIDES.index(side)]
     return Merged(
         member,
         side,
         name,
+        model,
         table_at(document, f"{member}.{name}"),
         table_at(document, f"{member}.{side}.{name}"),
         table_at(document, f"{member}.{mate}.{name}"),

@@ -77,6 +77,13 @@ class QuantityError(ValueError):
         super().__init__(f'got {given}; expected {expected}; for example "{example}"')
 
 
+def written(value: object) -> str:
+    """A value as text; Python writes no whole number of more than some thousand digits."""
+    if isinstance(value, int) and value.bit_length() > 400:
+        return f"a number of {value.bit_length()} bits"
+    return str(value)
+
+
 def parse(given: object, kind: Kind) -> float:
     """Value of a quantity in mm, rad, N, N mm or MPa; a sign holds for the whole of it."""
     text = given.translate(_SAME).replace("''", '"').strip() if isinstance(given, str) else ""
@@ -87,9 +94,9 @@ def parse(given: object, kind: Kind) -> float:
         reason = f"; {error}" if str(error) else ""
     name, units = kind.replace("_", " "), list(_UNITS[kind])
     article = "an" if name[0] in "aeiou" else "a"
-    bare = text or str(given)  # a bare number is shown with the unit it lacks
+    bare = text or written(given)  # a bare number is shown with the unit it lacks
     raise QuantityError(
-        given=f'"{given}"' if isinstance(given, str) else str(given),
+        given=f'"{given}"' if isinstance(given, str) else written(given),
         expected=f"{article} {name} with its unit ({', '.join(units[:6])}){reason}",
         example=f"{bare} {units[0]}" if re.fullmatch(f"-?{_NUMBER}", bare) else _EXAMPLES[kind],
     )

@@ -30,8 +30,8 @@ def parse_spec(text: str, name: str = "design file") -> Spec:
     except (ValueError, RecursionError) as error:  # line and column are in TOML's own message
         raise _unreadable(name, f"text that is not TOML ({error})") from None
     form = form_of(document)
-    if isinstance(form, Problem):
-        raise DesignError([form])
+    if isinstance(form, tuple):
+        raise DesignError(form)
     if problems := problems_of(document, form):
         raise DesignError(problems)
     file = form.model.model_validate(document)

@@ -2,76 +2,68 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Mapping
 from math import degrees, radians
 
 from hypoid.blank import crown_point
 from hypoid.geometry import Problem
 
-from ._document import Document, line, number_at, shown, table_at, value_at
-from ._keys import keys_of
-from ._merged import MEMBERS, SIDES, Merged, merged
-from ._sheet_file import (
-    BladeTable,
-    CutterTable,
-    GivenBlankTable,
-    Grinder463Table,
-    MachineTable,
-    SheetSettings,
+from ._document import (
+    MEMBERS,
+    Document,
+    assigned,
+    left_out,
+    line,
+    number_at,
+    shown,
+    table_at,
+    value_at,
 )
-from ._sheet_settings import DUPLEX, settings_rules
+from ._keys import MOST_TEETH, keys_of
+from ._merged import SIDES, Merged, merged
+from ._sheet_file import BladeTable, CutterTable, GivenBlankTable, Grinder463Table
+from ._sheet_settings import DUPLEX, settings_of, settings_rules
 
 _TAPER = radians(30.0)  # between pitch cone and face or root cone; more is a slip
-_MIXED = (
-    "either outer_cone_distance and outer_addendum, or outside_diameter and pitch_apex_to_crown"
-)
+_MEASURES: dict[str, tuple[str, ...]] = {
+    "straight": (),
+    "circular-arc": ("radius", "reference_height"),
+    "parabola": ("coefficient", "reference_height"),
+}
+_CROWN = ("outside_diameter", "pitch_apex_to_crown")
+_STEEP = 0.5  # addendum or dedendum per cone distance at the heel; more is a slip
 
 
 def sheet_rules(document: Document) -> Iterator[Problem]:
-    """Every fault between keys, each path once."""
-    told: set[str] = set()
-    for problem in _all(document):
-        if problem.path not in told:
-            told.add(problem.path)
-            yield problem
-
-
-def _all(document: Document) -> Iterator[Problem]:
+    """Every fault between keys; what both flanks of a member share comes twice."""
     few, many = (value_at(document, (member, "teeth")) for member in MEMBERS)
-    if isinstance(few, int) and isinstance(many, int) and 1 <= many < few:
+    if isinstance(few, int) and isinstance(many, int) and 1 <= many < few <= MOST_TEETH:
         expected = f"at least as many teeth as the pinion, which has {few}"
-        yield Problem("wheel.teeth", str(many), expected, f"teeth = {few}")
+        yield Problem("wheel.teeth", str(many), expected, assigned("teeth", few))
     hands = [value_at(document, (member, "hand")) for member in MEMBERS]
     if hands[0] == hands[1] and hands[0] in ("left", "right"):
         other = "right" if hands[0] == "left" else "left"
         expected = f'"{other}": the hand opposite to the pinion\'s'
         yield Problem("wheel.hand", shown(hands[1]), expected, f'hand = "{other}"')
-    machines: set[object] = set()
     for member in MEMBERS:
         yield from _blank(document, member)
         yield from _cutter(document, member)
-        methods: list[object] = []
-        for side in SIDES:
-            own = merged(document, member, side, "settings")
-            methods.append(own.get("method"))
-            machines.add(own.get("machine"))
+        flanks = [settings_of(document, member, side) for side in SIDES]
+        for own in flanks:
             yield from settings_rules(document, own)
-            yield from _blade(document, merged(document, member, side, "blade"))
-        duplex = next((method for method in methods if method in DUPLEX), None)
+            yield from _blade(document, merged(document, member, own.side, "blade", BladeTable))
+        duplex = [method for own in flanks if (method := own.word("method")) in DUPLEX]
         if duplex:
-            yield from _both_at_once(document, member, str(duplex))
-    cams = table_at(document, "machine.gleason-463.cams")
-    for number in cams:
-        if not (number.isascii() and number.isdecimal() and str(int(number)) == number):
-            expected = str(keys_of(Grinder463Table)["cams"].description)
-            example = line(Grinder463Table, "cams")
-            yield Problem(f"machine.gleason-463.cams.{number}", "a name", expected, example)
-    if "gleason-463" in machines and not table_at(document, "machine.gleason-463"):
-        expected = (
-            "swivel_offset and the cams of this very machine: they differ from one to the next"
-        )
-        example = line(MachineTable, "gleason-463").removeprefix("gleason-463 = ")
-        yield Problem("machine.gleason-463", "nothing", expected, f"gleason-463 = {example}")
+            yield from _both_at_once(document, member, duplex[0])
+    for number in table_at(document, "machine.gleason-463.cams"):
+        if not re.fullmatch("[1-9][0-9]{0,2}", number):
+            yield Problem(
+                f"machine.gleason-463.cams.{number}",
+                "a name",
+                str(keys_of(Grinder463Table)["cams"].description),
+                line(Grinder463Table, "cams"),
+            )
 
 
 def _both_at_once(document: Document, member: str, method: str) -> Iterator[Problem]:
@@ -81,11 +73,11 @@ def _both_at_once(document: Document, member: str, method: str) -> Iterator[Prob
             expected = (
                 f'settings at [{member}.settings]: method = "{method}" cuts both flanks at once'
             )
-            example = line(SheetSettings, key) if key in keys_of(SheetSettings) else ""
-            yield Problem(f"{member}.{side}.settings.{key}", shown(given), expected, example)
+            path = f"{member}.{side}.settings.{key}"
+            yield Problem(path, shown(given), expected, left_out(key, given))
     cutter = table_at(document, f"{member}.cutter")
     for key in ("diameter", "point_width"):
-        if cutter and key not in cutter:
+        if key not in cutter:
             what = f'a spread-blade cutter for method = "{method}": diameter and point_width'
             yield Problem(f"{member}.cutter.{key}", "nothing", what, line(CutterTable, key))
 
@@ -93,21 +85,7 @@ def _both_at_once(document: Document, member: str, method: str) -> Iterator[Prob
 def _blank(document: Document, member: str) -> Iterator[Problem]:
     path = f"{member}.blank"
     table = table_at(document, path)
-    if not table:
-        return
-    by_cone = [key for key in ("outer_cone_distance", "outer_addendum") if key in table]
-    by_crown = [key for key in ("outside_diameter", "pitch_apex_to_crown") if key in table]
-    if (len(by_cone), len(by_crown)) not in ((2, 0), (0, 2)):
-        given = ", ".join(by_cone + by_crown) or "nothing"
-        example = line(GivenBlankTable, "outer_cone_distance")
-        yield Problem(f"{path}.outer_cone_distance", given, _MIXED, example)
-    depth = [key for key in ("outer_dedendum", "root_angle") if key in table]
-    if len(depth) == 1:
-        other = "root_angle" if depth[0] == "outer_dedendum" else "outer_dedendum"
-        expected = (
-            "outer_dedendum and root_angle, or neither: the root is then where the cutter leaves it"
-        )
-        yield Problem(f"{path}.{other}", "nothing", expected, line(GivenBlankTable, other))
+    yield from _together(member, table)
     pitch = number_at(document, f"{path}.pitch_angle", "angle")
     if pitch is None:
         return
@@ -115,34 +93,71 @@ def _blank(document: Document, member: str) -> Iterator[Problem]:
         angle = number_at(document, f"{path}.{key}", "angle")
         if angle is not None and abs(angle - pitch) > _TAPER:
             expected = f"an angle within 30 deg of the pitch angle of {degrees(pitch):.5g} deg"
-            example = f'{key} = "{degrees(pitch):.4g} deg"'
+            example = assigned(key, f"{degrees(pitch):.4g} deg")
             yield Problem(f"{path}.{key}", shown(table[key]), expected, example)
     yield from _heel(document, member, pitch)
 
 
+def _together(member: str, table: Document) -> Iterator[Problem]:
+    """Keys of a blank that come in pairs."""
+
+    def missing(pair: tuple[str, str], expected: str) -> Iterator[Problem]:
+        for key in pair:
+            if key not in table:
+                path = f"{member}.blank.{key}"
+                yield Problem(path, "nothing", expected, line(GivenBlankTable, key))
+
+    def given(pair: tuple[str, str]) -> int:
+        return sum(key in table for key in pair)
+
+    cone, crown = ("outer_cone_distance", "outer_addendum"), _CROWN
+    either = f"either {' and '.join(cone)}, or {' and '.join(crown)}"
+    if given(cone) and given(crown):
+        key = next(key for key in crown if key in table)
+        yield Problem(
+            f"{member}.blank.{key}", "both", f"{either}: not both", left_out(key, table[key])
+        )
+    else:
+        yield from missing(crown if given(crown) else cone, either)
+    root = ("outer_dedendum", "root_angle")
+    if given(root) == 1:
+        expected = f"{' and '.join(root)}, or neither: the root is then where the cutter leaves it"
+        yield from missing(root, expected)
+
+
 def _heel(document: Document, member: str, pitch: float) -> Iterator[Problem]:
-    """A heel that can be: the crown on or above the pitch cone, the face shorter than the cone."""
+    """A heel that can be: the crown above the pitch cone but not far, the face shorter than the cone."""
     path = f"{member}.blank"
-    distance = number_at(document, f"{path}.outer_cone_distance", "length")
-    diameter = number_at(document, f"{path}.outside_diameter", "length")
-    crown = number_at(document, f"{path}.pitch_apex_to_crown", "length")
+
+    def length(key: str) -> float | None:
+        return number_at(document, f"{path}.{key}", "length")
+
+    def fault(key: str, expected: str, example: str) -> Problem:
+        given = shown(value_at(document, (member, "blank", key)))
+        return Problem(f"{path}.{key}", given, expected, example)
+
+    distance, heights = length("outer_cone_distance"), ["outer_addendum", "outer_dedendum"]
+    diameter, crown = (length(key) for key in _CROWN)
     if diameter is not None and crown is not None:
         distance, addendum = crown_point(diameter, crown, pitch)
-        if not 0.0 <= addendum < 0.5 * abs(distance):
+        if not 0.0 <= addendum < _STEEP * distance:
             expected = (
                 f"a crown above the pitch cone of {degrees(pitch):.5g} deg: with an outside "
                 f"diameter of {diameter:g} mm it lies {addendum:.4g} mm above"
             )
-            given = shown(value_at(document, (member, "blank", "pitch_apex_to_crown")))
-            example = line(GivenBlankTable, "pitch_apex_to_crown")
-            yield Problem(f"{path}.pitch_apex_to_crown", given, expected, example)
+            yield fault(_CROWN[1], expected, line(GivenBlankTable, _CROWN[1]))
             return
-    width = number_at(document, f"{path}.face_width", "length")
-    if distance is not None and width is not None and 0.0 < distance <= width:
-        given = shown(value_at(document, (member, "blank", "face_width")))
+    if distance is None or distance <= 0.0:
+        return
+    for key in heights:
+        height = length(key)
+        if height is not None and height >= _STEEP * distance:
+            expected = f"less than half the outer cone distance of {distance:.5g} mm"
+            yield fault(key, expected, assigned(key, f"{0.05 * distance:.3g} mm"))
+    width = length("face_width")
+    if width is not None and width >= distance:
         expected = f"a face narrower than the outer cone distance of {distance:.5g} mm"
-        example = f'face_width = "{0.3 * distance:.3g} mm"'
-        yield Problem(f"{path}.face_width", given, expected, example)
+        yield fault("face_width", expected, assigned("face_width", f"{0.3 * distance:.3g} mm"))
 
 
 def _cutter(document: Document, member: str) -> Iterator[Problem]:
@@ -163,36 +178,33 @@ def _cutter(document: Document, member: str) -> Iterator[Problem]:
 
 
 def _blade(document: Document, own: Merged) -> Iterator[Problem]:
-    cutter = table_at(document, f"{own.member}.cutter")
-
-    def fault(key: str, expected: str) -> Problem:
-        return Problem(own.path(key), shown(own.get(key)), expected, line(BladeTable, key))
-
     if "angle" not in own:
-        yield fault("angle", "the blade angle against the cutter's axis")
-    spread = "diameter" in cutter or "point_width" in cutter
+        yield own.wanted("angle", "the blade angle against the cutter's axis")
+    cutter = value_at(document, (own.member, "cutter"))
+    spread = isinstance(cutter, Mapping) and ("diameter" in cutter or "point_width" in cutter)
     if spread and "point_diameter" in own:
-        expected = "nothing: the cutter's diameter and point_width say where both blades stand"
-        yield fault("point_diameter", expected)
-    if not spread and "point_diameter" not in own:
-        expected = "a length above 0, or diameter and point_width in " + f"[{own.member}.cutter]"
-        yield Problem(
-            f"{own.member}.{own.side}.blade.point_diameter", "nothing", expected,
-            line(BladeTable, "point_diameter"),
-        )  # fmt: skip
-    profile = own.get("profile")
-    profile = "straight" if profile is None else profile
-    wanted = {"circular-arc": "radius", "parabola": "coefficient"}.get(str(profile), "")
-    for key in ("radius", "coefficient", "reference_height"):
-        needed = key == wanted or (key == "reference_height" and bool(wanted))
-        if needed and key not in own:
-            expected = str(keys_of(BladeTable)[key].description)
-            yield fault(key, f'{expected}; profile = "{profile}" needs it')
-        if not needed and key in own:
-            yield fault(key, f'nothing: profile = "{profile}" has no {key}')
-    if wanted == "radius" and own.number("radius", "length") == 0.0:
-        yield fault("radius", str(keys_of(BladeTable)["radius"].description))
+        why = "the cutter's diameter and point_width say where both blades stand"
+        yield own.unwanted("point_diameter", why)
+    if isinstance(cutter, Mapping) and not spread and "point_diameter" not in own:
+        path = f"{own.member}.{own.side}.blade.point_diameter"
+        expected = f"a length above 0, or diameter and point_width in [{own.member}.cutter]"
+        yield Problem(path, "nothing", expected, line(BladeTable, "point_diameter"))
+    yield from _profile(own)
     flankrem = own.get("flankrem")
-    if isinstance(flankrem, dict) and ("angle" in flankrem) == ("coefficient" in flankrem):
-        expected = "an angle (straight) or a coefficient (parabola), one of them"
-        yield fault("flankrem", expected)
+    if isinstance(flankrem, Mapping) and ("angle" in flankrem) == ("coefficient" in flankrem):
+        yield own.wanted("flankrem", "an angle (straight) or a coefficient (parabola), one of them")
+
+
+def _profile(own: Merged) -> Iterator[Problem]:
+    """The measures that a blade's profile has, and no others."""
+    profile = own.word("profile") or "straight"
+    if profile not in _MEASURES:
+        return  # named already
+    for key in ("radius", "coefficient", "reference_height"):
+        if key in _MEASURES[profile] and key not in own:
+            expected = f'{keys_of(BladeTable)[key].description}; profile = "{profile}" needs it'
+            yield own.wanted(key, expected)
+        if key in own and key not in _MEASURES[profile]:
+            yield own.unwanted(key, f'profile = "{profile}" has no {key}')
+    if profile == "circular-arc" and own.number("radius", "length") == 0.0:
+        yield own.wanted("radius")

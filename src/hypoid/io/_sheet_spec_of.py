@@ -10,16 +10,9 @@ from hypoid.design import Assumption, BladeSpec, FlankSpec, MemberSpec, SummaryS
 
 from ._defaults import defaults_used
 from ._quantity import parse
-from ._sheet_file import (
-    ROLL_TERMS,
-    BladeTable,
-    GivenBlankTable,
-    SheetFlank,
-    SheetMember,
-    SummarySheetFile,
-    plain_roll,
-)
-from ._sheet_settings import DIALS, FORM_CUT
+from ._sheet_dials import ROLL_TERMS, plain_roll
+from ._sheet_file import BladeTable, GivenBlankTable, SheetFlank, SheetMember, SummarySheetFile
+from ._sheet_settings import DIALS
 
 
 def sheet_spec_of(file: SummarySheetFile) -> SummarySheetSpec:
@@ -90,14 +83,19 @@ def _flank(member: SheetMember, flank: SheetFlank, *, outside: bool) -> FlankSpe
     if machine == "basic":
         for name, value in DIALS["basic"].defaults.items():
             dials.setdefault(name, parse(value, "angle" if "deg" in value else "length"))
-        dials.setdefault("ratio_of_roll", 1.0)  # of a form cut, whose cradle stands still
+        dials.setdefault("ratio_of_roll", 0.0)  # of a form cut, whose cradle stands still
         terms = {name: dials.pop(name) for name in ROLL_TERMS if name in dials}
         if terms:
             dials["modified_roll"] = plain_roll(terms)
         if "motions" in dials:
             moved: dict[str, list[float]] = dials["motions"]
             dials["motions"] = {name: tuple(powers) for name, powers in moved.items()}
-    return FlankSpec(method, machine, dials, _blade(member, flank, outside))
+    at_flank = frozenset(
+        f"{table}.{name}"
+        for table, keys in (("settings", flank.settings), ("blade", flank.blade))
+        for name in keys.model_fields_set
+    )
+    return FlankSpec(method, machine, dials, _blade(member, flank, outside), at_flank)
 
 
 def _blade(member: SheetMember, flank: SheetFlank, outside: bool) -> BladeSpec:
@@ -134,8 +132,6 @@ def _put_in(name: str, member: SheetMember) -> Iterator[Assumption]:
     for side, flank in (("concave", member.concave), ("convex", member.convex)):
         given = _settings(member, flank)
         defaults = dict(DIALS[given.get("machine", "basic")].defaults)
-        if given["method"] in FORM_CUT:  # nothing moves
-            defaults.pop("ratio_of_roll", None)
         if "helical_gears" in given:
             defaults["helical_direction"] = "1"
         for key, value in defaults.items():
