@@ -28,9 +28,7 @@ class Backlash:
     outer_normal: float
 
 
-def backlash(
-    drive: UnloadedContact, coast: UnloadedContact, pinion_angle: float = 0.0
-) -> Backlash:
+def backlash(drive: UnloadedContact, coast: UnloadedContact, pinion_angle: float = 0.0) -> Backlash:
     """Backlash at a pinion angle (rad, of drive) from both contacts of one pair under one mounting; NaN without contact."""
     pair = drive.pair
     pinion_pitch, wheel_pitch = (2.0 * math.pi / m.teeth for m in (pair.pinion, pair.wheel))

@@ -97,8 +97,8 @@ class UnloadedContact:
 
     @property
     def peak_to_peak(self) -> float:
-        """Peak to peak transmission error over one pitch, rad."""
-        return float(np.ptp(self.envelope))
+        """Peak to peak transmission error over one pitch, rad; NaN where the flanks do not always meet."""
+        return float(np.ptp(self.envelope)) if self.touched else float("nan")
 
     @cached_property
     def touched(self) -> bool:
@@ -189,7 +189,12 @@ class UnloadedContact:
         return (end - start) / self.pitch
 
     def harmonics(self, count: int = 5) -> np.ndarray:
-        """Amplitudes (count,) of the first harmonics of tooth mesh in the motion curve, rad."""
+        """Amplitudes (count,) of the first harmonics of tooth mesh in the motion curve, rad.
+
+        NaN where the flanks do not meet at every position.
+        """
+        if not self.touched:
+            return np.full(count, np.nan)
         n = self.sampling.positions_per_pitch
         one = self.envelope[:n]
         return 2.0 * np.abs(np.fft.rfft(one))[1 : count + 1] / n
