@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from importlib.metadata import version as installed_version
+from pathlib import Path
 
 project = "hypoid"
 author = "the hypoid authors"
@@ -14,6 +16,9 @@ exclude_patterns = ["_build", "jupyter_execute"]
 
 myst_enable_extensions = ["amsmath", "deflist", "dollarmath"]
 myst_heading_anchors = 3
+# The pages' cells import cells.py, which stands beside this file.
+search = [str(Path(__file__).parent), os.environ.get("PYTHONPATH", "")]
+os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, search))
 nb_execution_mode = "force"
 nb_execution_in_temp = True
 nb_execution_timeout = 300
