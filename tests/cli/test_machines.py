@@ -88,3 +88,16 @@ def test_every_example_has_settings(hypoid: Any) -> None:
         status, out, _ = hypoid("settings", path, "--json")
         assert status in (0, 1), Path(path).name
         assert {"pinion", "wheel", "faults", "assumed"} <= json.loads(out).keys()
+
+
+def test_the_files_own_machine_is_the_machine(hypoid: Any, tmp_path: Path) -> None:
+    """Another C with cams in proportion: the same flanks, and `--machine` knows that very grinder."""
+    text = Path(CAM).read_text(encoding="utf-8")
+    for old, new in (("381 mm", "762 mm"), ("70.302", "140.604"), ("56.439", "112.878")):
+        assert old in text
+        text = text.replace(old, new)
+    path = tmp_path / "own.toml"
+    path.write_text(text, encoding="utf-8")
+    status, out, err = hypoid("settings", str(path), "--machine", "gleason-463", "--json")
+    assert (status, err) == (0, "")
+    assert json.loads(out)["pinion"]["convex"]["cam_number"] == 23

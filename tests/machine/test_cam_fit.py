@@ -9,18 +9,20 @@ from typing import Any, Literal
 import pytest
 
 from hypoid.geometry import DesignError
-from hypoid.machine import MACHINES, MachineSettings, Workpiece
-from hypoid.machine._cam_fit import (
+from hypoid.machine import (
+    MACHINES,
+    DesignAngles,
     DesignFlank,
-    FlankAngles,
+    MachineSettings,
     MeanPoint,
     StraightBlade,
+    Workpiece,
     fit_cam,
     mean_point_angles,
 )
 from hypoid.machine._gleason_463 import STAND_IN_463, Gleason463Dials
 
-DESIGNED = FlankAngles(spiral=radians(35.0), pressure=radians(20.0))  # a prior of the notes
+DESIGNED = DesignAngles(spiral=radians(35.0), pressure=radians(20.0))  # a prior of the notes
 
 
 def minutes(degree: int, minute: int) -> float:

@@ -59,11 +59,18 @@ def write_table(
     for column in columns:
         table.add_column(column.replace(" ", "\n"), justify="right", no_wrap=True)
     for name, values in rows:
-        table.add_row(name, *(f"{v:.6g}" if isinstance(v, float) else str(v) for v in values))
+        table.add_row(name, *(_text(v) for v in values))
     console = Console(file=sys.stdout, highlight=False, markup=False, soft_wrap=True, width=WIDE)
     with console.capture() as text:  # printed by us: rich has its own way with a broken pipe
         console.print(table)
     print(text.get(), end="")
+
+
+def _text(value: float | int | str) -> str:
+    """Six digits; what rounding leaves of nothing (a billionth of a mm or deg) is nothing."""
+    if not isinstance(value, float):
+        return str(value)
+    return f"{0.0 if abs(value) < 1e-9 else value:.6g}"
 
 
 def write_members(title: str, results: Mapping[str, Mapping[str, Any]]) -> None:
@@ -75,7 +82,7 @@ def write_members(title: str, results: Mapping[str, Mapping[str, Any]]) -> None:
 
 def _cell(value: Any) -> float | int | str:
     if isinstance(value, list | tuple):
-        return ", ".join(f"{x:g}" for x in value) or "none"
+        return "\n".join(f"{x + 0.0:.5g}" for x in value) or "none"
     return value
 
 

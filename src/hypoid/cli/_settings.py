@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from cyclopts import Parameter
 
 from ._options import AsJson, DesignPath
-from ._output import report_faults, write_json, write_members, write_table
+from ._output import report_faults, say, write_json, write_members, write_table
 
 if TYPE_CHECKING:
     from hypoid.design import Dialled
@@ -52,6 +52,8 @@ def settings(
         shown = settings_tables(pair)
         if not json:
             write_members(pair.title, _columns(shown))
+            if any(m.flank(s).settings.cam for m in (pair.pinion, pair.wheel) for s in m.heads):
+                say("Work roll by a cam: ratio and series are those at its centre of roll.")
     if json:
         assumed = [asdict(a) for a in pair.assumed]
         write_json({**shown, "faults": list(pair.faults), "assumed": assumed})
@@ -96,7 +98,7 @@ def _sheet(sheet: SummarySheet) -> dict[str, Any]:
         shown |= {
             "ratio_of_roll": series.ratio_of_roll,
             "modified_roll": list(series.modified_roll),
-            "work_roll": "cam (ratio and series at the centre of roll)",
+            "work_roll": "cam",
         }
     return shown
 

@@ -29,7 +29,7 @@ class Backlash:
 
 
 def backlash(drive: UnloadedContact, coast: UnloadedContact, pinion_angle: float = 0.0) -> Backlash:
-    """Backlash at a pinion angle (rad, of drive) from both contacts of one pair under one mounting; NaN without contact."""
+    """Backlash at a pinion angle (rad, of drive) from both contacts of one pair under one mounting."""
     pair = drive.pair
     pinion_pitch, wheel_pitch = (2.0 * math.pi / m.teeth for m in (pair.pinion, pair.wheel))
     # The pinion as it stands in drive, and at which angle of coast its convex flank stands so.

@@ -9,7 +9,7 @@ import numpy as np
 
 from hypoid.flank import Deviation, Flank, deviation, recut, roll_range
 from hypoid.geometry import DesignError, Problem
-from hypoid.machine import MACHINES, AxisTable, Machine, Workpiece, axis_table
+from hypoid.machine import MACHINES, AxisTable, Machine, Workpiece, axis_table, constants_of
 from hypoid.pair import GearPair, Member
 
 
@@ -40,10 +40,11 @@ def dialled(pair: GearPair, machine: str) -> tuple[Dialled, ...]:
         With everything that the settings ask for and the machine cannot do.
     """
     on, problems, done = machine_named(machine), [], []
+    constants = constants_of(machine, pair.machine_constants.get(machine))
     for member in (pair.pinion, pair.wheel):
         for flank in (member.concave, member.convex):
             try:
-                done.append(_dialled(on, member, flank))
+                done.append(_dialled(on, constants, member, flank))
             except DesignError as error:
                 problems += error.problems
     if problems:
@@ -51,9 +52,9 @@ def dialled(pair: GearPair, machine: str) -> tuple[Dialled, ...]:
     return tuple(done)
 
 
-def _dialled(machine: Machine, member: Member, flank: Flank) -> Dialled:
+def _dialled(machine: Machine, constants: Any, member: Member, flank: Flank) -> Dialled:
     path = f"{member.name}.{flank.side}.settings"
-    work = Workpiece(member.teeth, member.blank.hand, machine.constants, path)
+    work = Workpiece(member.teeth, member.blank.hand, constants, path)
     dials = machine.from_basic(flank.settings, work)
     rounded = machine.rounded(dials)
     cut = recut(flank, machine.to_basic(rounded, work))

@@ -128,6 +128,7 @@ def build_milled(spec: SummarySheetSpec) -> GearPair:
         pinion=pinion,
         wheel=wheel,
         marking_thickness=spec.marking_thickness,
+        machine_constants=spec.machine_constants,
     )
 
 

@@ -3,6 +3,13 @@
 from ._cam import Cam as Cam
 from ._cam import cam_roll as cam_roll
 from ._cam import check_roll as check_roll
+from ._cam_fit import CamFit as CamFit
+from ._cam_fit import DesignAngles as DesignAngles
+from ._cam_fit import DesignFlank as DesignFlank
+from ._cam_fit import MeanPoint as MeanPoint
+from ._cam_fit import StraightBlade as StraightBlade
+from ._cam_fit import fit_cam as fit_cam
+from ._cam_fit import mean_point_angles as mean_point_angles
 from ._cradle_machine import Workpiece as Workpiece
 from ._generator import Meshing as Meshing
 from ._generator import Placed as Placed

@@ -32,7 +32,7 @@ class StraightBlade:
 
 
 @dataclass(frozen=True)
-class FlankAngles:
+class DesignAngles:
     """Angles on the pitch cone, rad: spiral positive in the member's own hand, pressure positive."""
 
     spiral: float
@@ -55,7 +55,7 @@ class DesignFlank:
     settings: MachineSettings  # with a cam: its pitch radius is the unknown
     blade: StraightBlade
     at: MeanPoint
-    angles: FlankAngles
+    angles: DesignAngles
 
 
 @dataclass(frozen=True)
@@ -64,12 +64,12 @@ class CamFit:
 
     offset_to_radius: float  # C/r_u
     pitch_radius: float  # mm, at the C of the settings
-    left: tuple[FlankAngles, ...]
+    left: tuple[DesignAngles, ...]
 
 
 def mean_point_angles(
     settings: MachineSettings, blade: StraightBlade, at: MeanPoint
-) -> FlankAngles:
+) -> DesignAngles:
     """Spiral and pressure angle of a face-milled flank at one place, from the plain matrices.
 
     Solves the meshing condition and the place for (u, theta, phi), or for (u, theta) if nothing
@@ -108,15 +108,15 @@ def fit_cam(flanks: Sequence[DesignFlank]) -> CamFit:
     cam = next(cam for cam in cams if cam is not None)
     offset, first = float(cam.swivel_offset), float(cam.swivel_offset) / float(cam.pitch_radius)
 
-    def left(ratio: float) -> list[FlankAngles]:
-        angles: list[FlankAngles] = []
+    def left(ratio: float) -> list[DesignAngles]:
+        angles: list[DesignAngles] = []
         for flank in flanks:
             assert flank.settings.cam is not None
             ground = replace(flank.settings.cam, pitch_radius=offset / ratio)
             settings = replace(flank.settings, cam=ground)
             got = mean_point_angles(settings, flank.blade, flank.at)
             spiral = got.spiral - flank.angles.spiral
-            angles.append(FlankAngles(spiral, got.pressure - flank.angles.pressure))
+            angles.append(DesignAngles(spiral, got.pressure - flank.angles.pressure))
         return angles
 
     def residuals(ratio: np.ndarray[Any, Any]) -> list[float]:
@@ -149,7 +149,7 @@ def _signs(blade: StraightBlade) -> tuple[float, float, float]:
 
 def _angles(
     point: np.ndarray[Any, Any], normal: np.ndarray[Any, Any], pitch_angle: float
-) -> FlankAngles:
+) -> DesignAngles:
     c, s, radius = math.cos(pitch_angle), math.sin(pitch_angle), math.hypot(point[0], point[1])
     outward = np.array([point[0] / radius, point[1] / radius, 0.0])
     around = np.array([-outward[1], outward[0], 0.0])
@@ -159,4 +159,4 @@ def _angles(
     trace = trace if trace @ along > 0.0 else -trace
     # left hand: towards the heel the tooth falls back against the turn about +z
     spiral = -math.atan2(float(trace @ around), float(trace @ along))
-    return FlankAngles(spiral, math.asin(float(normal @ up)))
+    return DesignAngles(spiral, math.asin(float(normal @ up)))

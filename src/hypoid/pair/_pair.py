@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 from hypoid.blank import MemberBlank, PairBlank
 from hypoid.cutter import CycloPalloidHead, FaceHobHead, FaceMillHead, TriAcHead
@@ -72,6 +72,10 @@ class GearPair:
     pinion: Member
     wheel: Member
     marking_thickness: float  # mm, of the virtual marking compound
+    # By machine: what the user's own has of its own, as the design file gives it (mm).
+    machine_constants: Mapping[str, Mapping[str, Any]] = field(
+        default_factory=dict[str, Mapping[str, Any]]
+    )
 
     @property
     def ratio(self) -> float:
