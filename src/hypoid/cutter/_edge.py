@@ -32,7 +32,7 @@ class EdgePiece:
 
     start: Vector  # point at s = 0
     tangent: Vector  # towards the shank, at s = 0; unit, unless the blade is raked
-    metal: Vector  # in the rake plane, out of the blade; unit and normal to the tangent, unless raked
+    metal: Vector  # in the rake plane, out of the blade; unit, square to the tangent unless raked
     curvature: Scalar  # k, 1/mm, positive where the edge bends towards the metal
     relief: Scalar  # c, 1/mm
     relief_from: Scalar  # b, mm
