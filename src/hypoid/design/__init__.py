@@ -14,6 +14,7 @@ from ._sheet_spec import FlankSpec as FlankSpec
 from ._sheet_spec import MemberSpec as MemberSpec
 from ._sheet_spec import Method as Method
 from ._sheet_spec import SummarySheetSpec as SummarySheetSpec
+from ._sheet_spec import cut_apart as cut_apart
 from ._spec import Assumption as Assumption
 from ._spec import ExactFaceHobbedSpec as ExactFaceHobbedSpec
 from ._spec import Hand as Hand

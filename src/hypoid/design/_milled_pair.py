@@ -39,6 +39,7 @@ from hypoid.pair import Assumption, GearPair, Member
 from ._blank import sheet_blank
 from ._sheet_faults import at_file, cut_faults
 from ._sheet_spec import BladeSpec, FlankSpec, MemberSpec, SummarySheetSpec
+from ._stock import divided
 
 T = TypeVar("T")
 SIDES: tuple[Side, Side] = ("concave", "convex")
@@ -120,6 +121,7 @@ def build_milled(spec: SummarySheetSpec) -> GearPair:
         _member(job, ready[n : n + 2], flanks[n : n + 2])
         for job, n in zip(jobs, (0, 2), strict=True)
     )
+    pinion, wheel = divided(spec, pinion, wheel, blank.mean_normal_module)
     return GearPair(
         title=spec.title,
         source=spec.source,

@@ -56,6 +56,13 @@ class MemberSpec:
     convex: FlankSpec
 
 
+def cut_apart(member: MemberSpec) -> bool:
+    """Whether each flank has its own cutter or settings, so that no cut makes the whole slot."""
+    sides = member.concave, member.convex
+    alone = any(flank.blade.land is None for flank in sides)
+    return alone or dict(sides[0].dials) != dict(sides[1].dials)
+
+
 @dataclass(frozen=True)
 class SummarySheetSpec:
     """A pair whose blanks, cutters and settings are all given."""
@@ -68,6 +75,7 @@ class SummarySheetSpec:
     pinion: MemberSpec
     wheel: MemberSpec
     marking_thickness: float  # mm, of the virtual marking compound
+    normal_backlash: float | None = None  # mm at the mean point, where flanks are cut one by one
     # By machine: what each machine of its kind has its own of, as the file gives it.
     machine_constants: Mapping[str, Mapping[str, Any]] = field(
         default_factory=dict[str, Mapping[str, Any]]

@@ -158,6 +158,13 @@ class SheetPair(Pair):
     """[pair]."""
 
     offset: Length = key("a length of 0 or more", "20 mm", ge=0, le=LARGEST)
+    normal_backlash: Length | None = key(
+        "a length of 0 or more, at the mean point, where flanks are cut one by one",
+        "0.15 mm",
+        default=None,
+        ge=0,
+        le=LARGEST,
+    )
 
 
 class CamTable(Table):

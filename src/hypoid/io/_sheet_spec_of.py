@@ -6,7 +6,14 @@ from collections.abc import Iterator
 from typing import Any
 
 from hypoid.blank import GivenBlank, crown_point
-from hypoid.design import Assumption, BladeSpec, FlankSpec, MemberSpec, SummarySheetSpec
+from hypoid.design import (
+    Assumption,
+    BladeSpec,
+    FlankSpec,
+    MemberSpec,
+    SummarySheetSpec,
+    cut_apart,
+)
 
 from ._defaults import defaults_used
 from ._quantity import parse
@@ -14,11 +21,20 @@ from ._sheet_dials import ROLL_TERMS, plain_roll
 from ._sheet_file import BladeTable, GivenBlankTable, SheetFlank, SheetMember, SummarySheetFile
 from ._sheet_settings import DIALS
 
+BACKLASH = 0.15  # mm, normal, at the mean point
+_BACKLASH = Assumption(
+    "pair.normal_backlash",
+    f"not given, and flanks cut one by one leave it open; the program's default is {BACKLASH} mm",
+)
+
 
 def sheet_spec_of(file: SummarySheetFile) -> SummarySheetSpec:
     """The numbers of a summary sheet, with all that the file or the program assumed."""
     grinder = file.machine.gleason_463
     constants = {} if grinder is None else {"gleason-463": grinder.model_dump(exclude_none=True)}
+    pinion, wheel = _member(file.pinion), _member(file.wheel)
+    backlash = file.pair.normal_backlash
+    free = backlash is None and (cut_apart(pinion) or cut_apart(wheel))
     return SummarySheetSpec(
         title=file.title,
         source=file.source,
@@ -27,12 +43,14 @@ def sheet_spec_of(file: SummarySheetFile) -> SummarySheetSpec:
             *_put_in("pinion", file.pinion),
             *_put_in("wheel", file.wheel),
             *defaults_used({"contact": file.contact}),
+            *([_BACKLASH] if free else []),
         ),
         shaft_angle=file.pair.shaft_angle,
         offset=file.pair.offset,
-        pinion=_member(file.pinion),
-        wheel=_member(file.wheel),
+        pinion=pinion,
+        wheel=wheel,
         marking_thickness=file.contact.marking_thickness,
+        normal_backlash=BACKLASH if free else backlash,
         machine_constants=constants,
     )
 
