@@ -14,7 +14,16 @@ from typing import Any
 import jax
 import numpy as np
 
-from hypoid.geometry import Batch, DesignError, Problem, Scalar, namespace, once, sine_cosine
+from hypoid.geometry import (
+    Batch,
+    DesignError,
+    Problem,
+    Scalar,
+    namespace,
+    once,
+    sine_cosine,
+    unit_angle,
+)
 
 STEPS = 5  # of third order, from the root for small alpha
 
@@ -26,7 +35,7 @@ class Cam:
 
     swivel_offset: Scalar  # C
     pitch_radius: Scalar  # r_u
-    setting: Scalar  # delta: seat of the cam off its nominal place
+    setting: Scalar  # delta: seat of the cam off its nominal place; None: on it, for good
     guide_angle: Scalar  # phi
     index_ratio: Scalar  # n_i/n_p, work turn per turn of the input shaft
 
@@ -37,9 +46,15 @@ def cam_roll(cam: Cam, angle: Batch) -> tuple[Batch, Batch]:
     In JAX both carry exact derivatives of any order.
     """
     xp = namespace(angle, cam)
-    turn, share = cam.swivel_offset / cam.pitch_radius, cam.setting / cam.swivel_offset
+    turn = cam.swivel_offset / cam.pitch_radius
     sine, cosine = _sine_cosine(angle - cam.guide_angle)
     target = sine + _sine_cosine(cam.guide_angle)[0]
+    if cam.setting is None:  # sin(alpha) = target
+        slope = xp.sqrt(1.0 - target * target)
+        alpha = xp.arcsin(target) if xp is np else unit_angle(slope, target)
+        by_angle = cosine / slope
+        return cam.index_ratio * (turn * alpha + angle), cam.index_ratio * (1.0 + turn * by_angle)
+    share = cam.setting / cam.swivel_offset
     alpha = _newton(turn, share, target) if xp is np else _parameter(turn, share, target)
     by_angle = cosine / _rise(turn, share, alpha)[1]
     return cam.index_ratio * (turn * alpha + angle), cam.index_ratio * (1.0 + turn * by_angle)

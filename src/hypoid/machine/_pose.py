@@ -7,7 +7,7 @@ their powers are there only where they do, so that a machine at rest costs nothi
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import jax
 import jax.numpy as jnp
@@ -70,6 +70,9 @@ def generator(settings: MachineSettings) -> Generator:
         axes = Axes(
             **{n: powers(getattr(settings, n), getattr(settings.motions, n)) for n in names}
         )
+    cam = settings.cam
+    if cam is not None and isinstance(cam.setting, float) and cam.setting == 0.0:
+        cam = replace(cam, setting=None)  # closed: no search for the cam's parameter
     roll = settings.ratio_of_roll * powers(1.0, settings.modified_roll)[:ORDERS]
     if settings.cam is not None:  # its first power, where closed forms begin
         roll = number([cam_roll(settings.cam, number(0.0))[1], *[0.0] * (ORDERS - 1)])
@@ -88,7 +91,7 @@ def generator(settings: MachineSettings) -> Generator:
         roll=roll,
         blade_ratio=number(settings.roll_to_blade_ratio),
         cutter_lead=number(settings.cutter_lead),
-        cam=settings.cam,
+        cam=cam,
         axes=axes,
     )
 
