@@ -16,7 +16,8 @@ from hypoid.pair import GearPair
 from hypoid.report import report_html, write_report
 
 SECTIONS = (
-    "What was found", "Blank", "Cutter", "Machine settings", "Tooth surfaces", "Contact pattern",
+    "What was found", "Blank", "Cutter", "Machine settings", "Tooth surfaces",
+    "Tooth", "Contact pattern",
     "Motion", "Ease-off", "Misalignment drive", "Misalignment coast", "In mesh",
 )  # fmt: skip
 
