@@ -15,6 +15,12 @@ $(READY): pyproject.toml uv.lock | $(TOOLS)/bin/uv
 	$(UV) sync --frozen --quiet
 	@touch $@
 
+# The CAD kernel (400 MB) is for those who test or write STEP.
+CAD := .venv/.cad
+$(CAD): $(READY)
+	$(UV) sync --frozen --quiet --extra cad
+	@touch $@
+
 # Status 1 of a command means: computed, and the design has a fault that the message names.
 demo: $(READY)
 	@$(BIN)/hypoid report $(DESIGN) -o report.html || [ $$? -eq 1 ]
@@ -22,7 +28,7 @@ demo: $(READY)
 
 test: check docs
 
-check: $(READY)
+check: $(CAD)
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/pyright --pythonpath $(BIN)/python

@@ -6,6 +6,7 @@ from ._chart import Border as Border
 from ._chart import Chart as Chart
 from ._chart import PitchCone as PitchCone
 from ._chart import chart as chart
+from ._chart import edge_line as edge_line
 from ._cut import best_way as best_way
 from ._cut import cut_flank as cut_flank
 from ._cut import lowest_line as lowest_line
@@ -22,6 +23,7 @@ from ._envelope import solve_pair as solve_pair
 from ._flank import Flank as Flank
 from ._flank import FlankPoints as FlankPoints
 from ._flank import Side as Side
+from ._section import lowest as lowest
 from ._status import PointStatus as PointStatus
 from ._tooth import SIDES as SIDES
 from ._tooth import Profile as Profile

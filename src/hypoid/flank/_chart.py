@@ -148,7 +148,7 @@ def height_at(
 
 
 def edge_line(
-    surface: Surface, piece: EdgePiece, cone: PitchCone, distance: Any, s: Any, theta: float
+    surface: Surface, piece: EdgePiece, cone: PitchCone, distance: Any, s: Any, theta: Any
 ) -> tuple[Any, Any]:
     """Theta and H where the lines s = const of a piece reach the cone distances S."""
     distance, s = (a.ravel() for a in np.broadcast_arrays(distance, s))

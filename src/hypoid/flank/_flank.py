@@ -162,6 +162,9 @@ class Flank:
                 owner[height >= low] = index
             for index in range(count):
                 ask(index, np.flatnonzero(asked & (owner == index)))
+            for index in range(count - 1):  # below a kink of the edge what lies under it goes on
+                high = self.charts[self.cut_pieces[index + 1]].bounds(distance)[1]
+                ask(index + 1, np.flatnonzero(asked & (owner == index) & (height < high - EDGE)))
             missed = asked & (status != PointStatus.OK)
             for index in range(count):
                 ask(index, np.flatnonzero(missed & (np.abs(owner - index) == 1)))

@@ -142,13 +142,15 @@ class Tooth:
     def _bottom(
         self, distance: Array, made: dict[Side, Profile], across: int
     ) -> tuple[Array, Array]:
-        """The slot's bottom: the lower of what both lands sweep, between the flanks' lowest points."""
+        """The slot's bottom: the lower of what both lands sweep, between the flanks' lowest points.
+
+        Where neither reaches, it runs straight to what is next to it; nowhere is it above the chord.
+        """
         start = made["convex"].angle[:, 0] - self.pitch
         end = made["concave"].angle[:, 0]
         share = np.linspace(0.0, 1.0, across)
         angle = start[:, None] + np.outer(end - start, share)
-        ends = made["convex"].height[:, 0], made["concave"].height[:, 0]
-        height = ends[0][:, None] + np.outer(ends[1] - ends[0], share)
+        height = np.full(angle.shape, np.inf)
         for side in SIDES:
             flank = self.flank(side)
             if "land" not in flank.pieces:
@@ -168,9 +170,13 @@ class Tooth:
                     land = np.interp(
                         angle[k], at[order], curve.height[there][order], left=np.inf, right=np.inf
                     )
-                    inner = slice(1, -1)
-                    height[k, inner] = np.minimum(height[k, inner], land[inner])
-        return height, angle
+                    height[k] = np.minimum(height[k], land)
+        low = made["convex"].height[:, 0], made["concave"].height[:, 0]
+        height[:, 0], height[:, -1] = low
+        for row in height:
+            there = np.isfinite(row)
+            row[~there] = np.interp(share[~there], share[there], row[there])
+        return np.minimum(height, low[0][:, None] + np.outer(low[1] - low[0], share)), angle
 
 
 def _left_angle(flank: Flank, distance: Any, height: Any) -> Array:

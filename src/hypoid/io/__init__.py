@@ -13,17 +13,34 @@ from ._quantity import parse as parse
 from ._read import parse_spec as parse_spec
 from ._read import read_spec as read_spec
 from ._schema import json_schema as json_schema
+from ._write import write_bytes as write_bytes
 from ._write import write_text as write_text
 
 if TYPE_CHECKING:
     from ._grid import FlankGrid as FlankGrid
     from ._grid import grid_csv as grid_csv
     from ._grid import grid_json as grid_json
+    from ._hex_files import write_hex as write_hex
+    from ._mesh_files import write_mesh as write_mesh
+    from ._points import tooth_points as tooth_points
+    from ._points import write_points as write_points
+    from ._step import StepReport as StepReport
+    from ._step import write_step as write_step
 
-_LAZY = ("FlankGrid", "grid_csv", "grid_json")
+_LAZY = {
+    "FlankGrid": "_grid",
+    "grid_csv": "_grid",
+    "grid_json": "_grid",
+    "write_hex": "_hex_files",
+    "write_mesh": "_mesh_files",
+    "tooth_points": "_points",
+    "write_points": "_points",
+    "StepReport": "_step",
+    "write_step": "_step",
+}
 
 
 def __getattr__(name: str) -> Any:
     if name in _LAZY:
-        return getattr(import_module("._grid", __name__), name)
+        return getattr(import_module(f".{_LAZY[name]}", __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -1,4 +1,43 @@
-"""Solids: a tooth, a sector or a gear with its body, as meshes of its exact surfaces."""
+"""Solids: a tooth, a sector or a gear with its body, as meshes of its exact surfaces.
+
+Names that need SciPy are loaded when first asked for.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 from ._body import Body as Body
 from ._body import body as body
+from ._mesh import MassProperties as MassProperties
+from ._mesh import SurfaceMesh as SurfaceMesh
+from ._mesh import mass_properties as mass_properties
+from ._request import chord_problems as chord_problems
+from ._request import largest_bore as largest_bore
+from ._request import ring_problems as ring_problems
+
+if TYPE_CHECKING:
+    from ._brep import Brep as Brep
+    from ._gear_brep import gear_brep as gear_brep
+    from ._hex_mesh import HexMesh as HexMesh
+    from ._hex_mesh import hex_mesh as hex_mesh
+    from ._hex_quality import Quality as Quality
+    from ._probes import probes as probes
+    from ._splines import tooth_splines as tooth_splines
+    from ._surface_mesh import surface_mesh as surface_mesh
+
+_LAZY = {
+    "HexMesh": "_hex_mesh",
+    "hex_mesh": "_hex_mesh",
+    "Quality": "_hex_quality",
+    "surface_mesh": "_surface_mesh",
+    "Brep": "_brep",
+    "gear_brep": "_gear_brep",
+    "probes": "_probes",
+    "tooth_splines": "_splines",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name in _LAZY:
+        return getattr(import_module(f".{_LAZY[name]}", __name__), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
