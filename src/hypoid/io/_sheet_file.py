@@ -90,7 +90,9 @@ class BladeTable(Table):
 class CutterTable(Table):
     """[pinion.cutter]: diameter and point width of a spread-blade cutter, or only its type."""
 
-    type: Literal["face-mill"] = key('"face-mill"', "face-mill")
+    type: Literal["face-mill", "cup-wheel"] = key(
+        '"face-mill", or "cup-wheel" for a grinding wheel of that meridian', "face-mill"
+    )
     diameter: Length | None = key(
         "a length above 0, to the middle of the point width", "9 in", default=None, gt=0, le=LARGEST
     )
