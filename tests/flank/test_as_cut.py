@@ -36,6 +36,7 @@ def test_the_tooth_is_what_the_blades_leave(example: str, name: str, side: Any) 
     for k, distance in enumerate(grid.distance):
         rows = slice(1, None)  # the lowest line is a double root
         cut = sweep.boundary(distance, profile.height[k, rows], side, (low - 0.1, high + 0.1))
+        cut += member.stock_turn if side == "convex" else 0.0  # how the work stood for that cut
         _, rho = flank.cone.axial_radial(distance, profile.height[k, rows])
         lever = rho * np.abs(profile.normal[k, rows, 1])
         angle = profile.angle[k, rows]
