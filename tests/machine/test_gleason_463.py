@@ -185,8 +185,10 @@ def test_mechanical_and_basic_pose_are_one_rigid_motion(
     low, high = roll_limits(dials, work)
     phi = low + (high - low) * share
     apart = NO_463.pose(dials, work, theta, phi) - chain(NO_463.to_basic(dials, work), theta, phi)
-    assert np.abs(apart[:3, 3]).max() < 1e-12  # mm
-    assert np.abs(apart[:3, :3]).max() < 1e-13
+    cam = STAND_IN_463.cams[dials.cam_number]
+    far = abs(dials.cam_setting - cam.nominal_setting) > 0.5 * cam.pitch_radius  # the roll is steep
+    assert np.abs(apart[:3, 3]).max() < (1e-11 if far else 1e-12)  # mm
+    assert np.abs(apart[:3, :3]).max() < (1e-12 if far else 1e-13)
 
 
 @HANDS
