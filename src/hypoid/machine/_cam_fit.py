@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
-from scipy.optimize import fsolve, least_squares
 
 from hypoid.geometry import DesignError, Problem
 
@@ -87,6 +86,8 @@ def mean_point_angles(
         meshing = [float(normal @ rate)] if settings.generated else []
         return [*place, *meshing]
 
+    from scipy.optimize import fsolve  # late: a command that fits nothing starts without it
+
     unknown, _, status, _ = fsolve(off, start[:free], xtol=1e-13, full_output=True)
     if status != 1 and max(abs(value) for value in off(unknown)) > 1e-6:
         given = f"z = {at.z:.6g} mm, radius = {at.radius:.6g} mm"
@@ -127,6 +128,8 @@ def fit_cam(flanks: Sequence[DesignFlank]) -> CamFit:
 
     starts = first * np.geomspace(0.5, 2.0, SCAN)
     start = min(starts, key=lambda ratio: float(np.square(residuals(np.array([ratio]))).sum()))
+    from scipy.optimize import least_squares
+
     best = float(least_squares(residuals, [start], x_scale=first, diff_step=1e-5).x[0])
     return CamFit(best, offset / best, tuple(left(best)))
 
