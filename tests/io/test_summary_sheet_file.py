@@ -33,6 +33,17 @@ def test_a_key_of_a_flank_goes_before_its_members() -> None:
     assert "settings.tilt_angle" in convex.at_flank - concave.at_flank
 
 
+def test_backlash_of_flanks_cut_one_by_one_is_told_as_assumed() -> None:
+    """0.15 mm where nothing is given; nothing at all where each slot is cut at once."""
+    apart: Changes = {"pinion.convex.settings": {"sliding_base": "0.1 mm"}}
+    paths = [[a.value for a in s.assumed] for s in (parsed(), parsed(apart))]
+    assert ["pair.normal_backlash" in p for p in paths] == [False, True]
+    assert (parsed().normal_backlash, parsed(apart).normal_backlash) == (None, 0.15)
+    given: Changes = {**apart, "pair.normal_backlash": "0.1 mm"}
+    assert parsed(given).normal_backlash == pytest.approx(0.1)
+    assert "pair.normal_backlash" not in [a.value for a in parsed(given).assumed]
+
+
 def test_inches_and_millimetres_may_stand_in_one_file() -> None:
     inches: Changes = {
         "pinion.cutter.diameter": "9.8425196850393704 in",

@@ -276,9 +276,9 @@ def test_limits_of_the_cradle_by_contact(
 def test_a_cam_on_its_seat_is_closed() -> None:
     """(24) with delta = 0: the parameter is an arcsine, in NumPy and in JAX, to rounding."""
     for guide in (0.0, radians(5.0), radians(-3.0)):
-        searched = Cam(381.0, 70.302, 0.0, guide, 10 / 27)
-        closed = replace(searched, setting=None)
+        cam = Cam(381.0, 70.302, 0.0, guide, 10 / 27)
         angle = np.linspace(-0.2, 0.2, 41)
         for at in (angle, jnp.asarray(angle)):
-            for one, other in zip(cam_roll(closed, at), cam_roll(searched, at), strict=True):
+            closed = cam_roll(cam, at, seated=True)
+            for one, other in zip(closed, cam_roll(cam, at), strict=True):
                 assert np.asarray(one) == pytest.approx(np.asarray(other), abs=1e-14)

@@ -19,7 +19,6 @@ ENDINGS = {
     "step": (".step", ".stp"), "inp": (".inp",), "vtu": (".vtu",), "points": (".csv",),
 }  # fmt: skip
 SURFACES = ("stl", "ply", "obj", "glb")
-DENSITY = 7.85  # g/cm3
 UM = 1e3
 
 
@@ -32,7 +31,9 @@ def files_of(kind: str, path: Path) -> list[Path]:
     """What an option writes: a file, or one for each flank."""
     if kind != "points":
         return [path]
-    return [path.with_name(f"{path.stem}-{s}{path.suffix}") for s in ("concave", "convex")]
+    from hypoid.io import point_files
+
+    return list(point_files(path).values())
 
 
 @dataclass(frozen=True)
@@ -110,14 +111,16 @@ def _head(kind: str, path: Path, member: Member) -> Result:
 
 
 def _surface(mesh: SurfaceMesh) -> Result:
+    from hypoid.solid import STEEL
+
     return {
         "teeth": mesh.teeth,
         "vertices": len(mesh.vertices),
         "triangles": len(mesh.triangles),
         "chord_error_um": mesh.chord_error * UM,
         "volume_mm3": mesh.volume,
-        "mass_kg": mesh.mass(DENSITY),
-        "density_g_per_cm3": DENSITY,
+        "mass_kg": mesh.mass(STEEL),
+        "density_g_per_cm3": STEEL,
         "watertight": mesh.watertight,
     }
 

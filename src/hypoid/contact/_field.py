@@ -99,8 +99,7 @@ def flank_nodes(flank: Flank, columns: int, rows: int) -> FlankNodes:
         mine = np.ones(height.size, dtype=bool) if name == "flank" else places[1] > low
         s, theta, _ = flank.parameters(places[0][mine], places[1][mine], name)
         made[:, mine] = np.vstack([*(a.T for a in flank.at_cutter(s, theta, name)), s, theta])
-    hand = np.array([1.0, -1.0 if flank.mirrored else 1.0, 1.0])
-    point, normal = made[:3] * hand[:, None], made[3:6] * hand[:, None]
+    point, normal = (part * flank.hand[:, None] for part in (made[:3], made[3:6]))
     return FlankNodes(distance, share, height, point, normal, made[6], made[7])
 
 

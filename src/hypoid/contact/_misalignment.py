@@ -111,9 +111,8 @@ def _bring_to(contact: UnloadedContact, place: str, node: int) -> VHResult:
     distance, height = contact.nodes.distance, contact.nodes.height
     target = (float(distance[node % len(distance)]), float(height.ravel()[node]))
     start = float(contact.phi[contact.leads[:, node].argmax()])
-    hand = np.array([1.0, -1.0 if pinion.mirrored else 1.0, 1.0])
     at = pinion.at_cone([target[0]], [target[1]])
-    point, normal = (at.position * hand)[0], (at.normal * hand)[0]
+    point, normal = (at.position * pinion.hand)[0], (at.normal * pinion.hand)[0]
 
     def conditions(unknown: Array) -> Array:
         phi, offset, axial = unknown

@@ -23,7 +23,17 @@ from hypoid.cutter import (
     ParabolicProfile,
     Toprem,
 )
-from hypoid.flank import Border, Flank, PitchCone, Side, best_way, cut_flank, lowest_line, trimmed
+from hypoid.flank import (
+    SIDES,
+    Border,
+    Flank,
+    PitchCone,
+    Side,
+    best_way,
+    cut_flank,
+    lowest_line,
+    trimmed,
+)
 from hypoid.geometry import DesignError, Problem
 from hypoid.machine import (
     MACHINES,
@@ -42,7 +52,6 @@ from ._sheet_spec import BladeSpec, FlankSpec, MemberSpec, SummarySheetSpec
 from ._stock import divided
 
 T = TypeVar("T")
-SIDES: tuple[Side, Side] = ("concave", "convex")
 SPARE = 1.6  # times both members' addenda: a blade surely longer than the tooth is deep
 
 

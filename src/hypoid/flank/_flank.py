@@ -24,10 +24,8 @@ from ._status import PointStatus
 Array = np.ndarray[Any, Any]
 Side = Literal["concave", "convex"]
 TOLERANCE = 1e-9  # mm, what Newton may leave
-RUNOUT, RUNOUT_TOLERANCE = (
-    2e-2,
-    1e-6,
-)  # mm: last bit of edge before the root land, what is left there
+RUNOUT = 2e-2  # mm: last bit of edge before the root land
+RUNOUT_TOLERANCE = 1e-6  # mm, what is left there
 EDGE = 1e-7  # mm, how far past its own end a piece may be read
 
 
@@ -120,6 +118,16 @@ class Flank:
     def name(self) -> str:
         return f"{self.member} {self.side}"
 
+    @cached_property
+    def hand(self) -> Array:
+        """Signs (3,) between the member's own hand and a left-hand one, either way."""
+        return np.array([1.0, -1.0 if self.mirrored else 1.0, 1.0])
+
+    def left_angle(self, distance: Any, height: Any) -> Array:
+        """Angle about the axis at (S, H), rad in (-pi, pi], read as a left-hand member; shape of S."""
+        x, y, _ = (self.at_cone(distance, height).position * self.hand).T
+        return np.arctan2(y, x).reshape(np.shape(distance))
+
     @property
     def generated(self) -> bool:
         """Whether the edge makes the whole flank and fillet with no singular place in between."""
@@ -138,7 +146,6 @@ class Flank:
         values = np.full((8, len(z)), np.nan)
         status = np.full(len(z), PointStatus.NOT_CONVERGED, dtype=np.int8)
         piece = np.zeros(len(z), dtype=np.int8)
-
         other = np.zeros(len(z), dtype=bool)
 
         def ask(index: int, places: Array) -> None:
@@ -251,7 +258,7 @@ class Flank:
         piece, chart = self.pieces[name], self.charts[name]
         args = (self.surface, piece, chart, self.cone)
         sense = np.full(len(z), chart.sense)
-        values = locate(*args, z, rho) if np.isfinite(chart.error) else np.full((9, len(z)), np.inf)
+        values = locate(*args, z, rho)
         poor = np.flatnonzero(~(values[8] < TOLERANCE))
         if len(poor):
             _, y = chart.coordinates(*self.cone.cone_distance_height(z[poor], rho[poor]))

@@ -57,13 +57,8 @@ def locate_slowly(
     surface: Surface, piece: EdgePiece, chart: Chart, cone: PitchCone, z: Rows, rho: Rows
 ) -> Rows:
     """The same by full Newton with limited steps, and the Jacobian's sense: where charts fail."""
-    return _newton(surface, piece, cone, z, rho, _start(chart, cone, z, rho))
-
-
-def _newton(
-    surface: Surface, piece: EdgePiece, cone: PitchCone, z: Rows, rho: Rows, start: Any
-) -> Rows:
     place = cone.cone_distance_height(z, rho)
+    start = _start(chart, cone, z, rho)
     s, theta, _, left, sense = height_at(surface, piece, cone, *place, *start)
     return np.vstack([from_cutter(surface, piece, s, theta), s, theta, left, sense])
 

@@ -21,6 +21,7 @@ from hypoid.geometry import Batch, Batched
 
 from ._chart import PitchCone, height_at
 from ._envelope import Surface, axial_radial_angle, placed, value_and_jacobian
+from ._locate import from_cutter
 
 if TYPE_CHECKING:
     from ._flank import Flank
@@ -168,8 +169,6 @@ def cut_points(flank: Flank, z: Array, rho: Array) -> tuple[Array, Array, Array]
 
     Values are position, normal, s and turn of a left-hand member; NaN where the edge passes no such place.
     """
-    from ._locate import from_cutter
-
     distance, height = flank.cone.cone_distance_height(z, rho)
     values = np.full((8, len(z)), np.nan)
     piece, other = np.zeros(len(z), dtype=np.int8), np.zeros(len(z), dtype=bool)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -65,10 +66,17 @@ class Tooth:
     def flank(self, side: Side) -> Flank:
         return self.concave if side == "concave" else self.convex
 
+    @cached_property
+    def convex_turn(self) -> float:
+        """Turn that takes the convex flank to where it bounds one tooth with the concave one, rad."""
+        middle = [0.5 * (self.concave.toe + self.concave.heel)]
+        concave, convex = (float(self.flank(s).left_angle(middle, [0.0])[0]) for s in SIDES)
+        return concave - convex + self.pitch - float(self.slot_angle(middle)[0])
+
     def slot_angle(self, distance: Any, height: Any = 0.0) -> Array:
         """Angle of the slot at (S, H), rad, in [0, pitch); NaN where a flank is not there."""
         distance, height = np.broadcast_arrays(np.asarray(distance, float), height)
-        concave, convex = (_left_angle(self.flank(s), distance, height) for s in SIDES)
+        concave, convex = (self.flank(s).left_angle(distance, height) for s in SIDES)
         return np.mod(concave - convex - self.turn, self.pitch)
 
     def slot_width(self, distance: Any, height: Any = 0.0) -> Array:
@@ -112,14 +120,21 @@ class Tooth:
         height, angle = self._bottom(distance, made, across)
         return ToothGrid(distance, made["concave"], made["convex"], tip, pointed, height, angle)
 
+    def placed(self, grid: ToothGrid, side: Side) -> tuple[Array, Array]:
+        """Points (n, rows, 3) mm of one flank of a grid and unit normals, in the member's own hand."""
+        profile, flank = grid.side(side), self.flank(side)
+        z, radius = flank.cone.axial_radial(grid.distance[:, None], profile.height)
+        position = np.stack([radius, 0.0 * radius, z], axis=-1)
+        points, normals = (_turned_back(v, -profile.angle) for v in (position, profile.normal))
+        return points * flank.hand, normals * flank.hand
+
     def _profile(self, side: Side, distance: Array, tip: Array, share: Array) -> Profile:
         flank = self.flank(side)
         low, low_angle, s, turn = lowest(flank, distance)
         height = low[:, None] + (tip - low)[:, None] * share
         rows = height.shape[1]
         at = flank.at_cone(np.broadcast_to(distance[:, None], height.shape)[:, 1:], height[:, 1:])
-        hand = np.array([1.0, -1.0 if flank.mirrored else 1.0, 1.0])
-        position, normal = at.position * hand, at.normal * hand
+        position, normal = at.position * flank.hand, at.normal * flank.hand
         angle = np.full(height.shape, np.nan)
         angle[:, 1:] = np.arctan2(position[:, 1], position[:, 0]).reshape(len(distance), rows - 1)
         angle[:, 0] = low_angle
@@ -131,12 +146,10 @@ class Tooth:
         every[:, 0] = first[3:6].T
         turned = _turned_back(every, angle)
         # continuous along the face, and the convex flank that bounds the tooth of the concave one
-        middle = len(distance) // 2
-        angle = angle[middle, -1] + _wrapped(angle - angle[middle, -1])
+        middle = flank.left_angle([0.5 * (flank.toe + flank.heel)], [0.0])
+        angle = middle + _wrapped(angle - middle)
         if side == "convex":
-            here = angle[middle, int(np.abs(height[middle]).argmin())] + self.turn
-            concave = _left_angle(self.concave, distance[middle], 0.0)
-            angle = angle + (concave + np.mod(here - concave, self.pitch) - (here - self.turn))
+            angle = angle + self.convex_turn
         return Profile(height, angle, turned, piece)
 
     def _bottom(
@@ -177,12 +190,6 @@ class Tooth:
             there = np.isfinite(row)
             row[~there] = np.interp(share[~there], share[there], row[there])
         return np.minimum(height, low[0][:, None] + np.outer(low[1] - low[0], share)), angle
-
-
-def _left_angle(flank: Flank, distance: Any, height: Any) -> Array:
-    """Angle about the axis at (S, H), rad, read as a left-hand member."""
-    x, y, _ = flank.at_cone(distance, height).position.T
-    return np.arctan2(-y if flank.mirrored else y, x).reshape(np.shape(distance))
 
 
 def _crossing(concave: Profile, convex: Profile) -> Array:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from ._grid import grid_json as grid_json
     from ._hex_files import write_hex as write_hex
     from ._mesh_files import write_mesh as write_mesh
+    from ._points import point_files as point_files
     from ._points import tooth_points as tooth_points
     from ._points import write_points as write_points
     from ._step import StepReport as StepReport
@@ -33,6 +34,7 @@ _LAZY = {
     "grid_json": "_grid",
     "write_hex": "_hex_files",
     "write_mesh": "_mesh_files",
+    "point_files": "_points",
     "tooth_points": "_points",
     "write_points": "_points",
     "StepReport": "_step",

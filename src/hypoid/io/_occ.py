@@ -20,8 +20,7 @@ from typing import Any
 import numpy as np
 
 from hypoid.geometry import DesignError, Problem
-from hypoid.solid._brep import Arc, Brep, Flat, Segment, SplineSurface, Turned
-from hypoid.solid._splines import SplineCurve
+from hypoid.solid import Arc, Brep, Flat, Segment, SplineCurve, SplineSurface, Turned
 
 Array = np.ndarray[Any, Any]
 INSTALL = 'pip install "hypoid[cad]"'

@@ -12,8 +12,14 @@ import numpy as np
 
 from hypoid.geometry import DesignError, Problem
 from hypoid.pair import Member
-from hypoid.solid import body, gear_brep, probes, ring_problems, tooth_splines
-from hypoid.solid._request import tooth_problems
+from hypoid.solid import (
+    body,
+    gear_brep,
+    probes,
+    ring_problems,
+    tooth_problems,
+    tooth_splines,
+)
 
 from . import _occ
 from ._write import write_bytes

@@ -35,21 +35,22 @@ class Cam:
 
     swivel_offset: Scalar  # C
     pitch_radius: Scalar  # r_u
-    setting: Scalar  # delta: seat of the cam off its nominal place; None: on it, for good
+    setting: Scalar  # delta: seat of the cam off its nominal place
     guide_angle: Scalar  # phi
     index_ratio: Scalar  # n_i/n_p, work turn per turn of the input shaft
 
 
-def cam_roll(cam: Cam, angle: Batch) -> tuple[Batch, Batch]:
+def cam_roll(cam: Cam, angle: Batch, *, seated: bool = False) -> tuple[Batch, Batch]:
     """Work roll W, rad, from the centre of roll, and dW/d(angle) at cradle angles [lin1996, (24), (25)].
 
-    In JAX both carry exact derivatives of any order.
+    In JAX both carry exact derivatives of any order. ``seated`` says that delta is zero, for which
+    (24) is closed.
     """
     xp = namespace(angle, cam)
     turn = cam.swivel_offset / cam.pitch_radius
     sine, cosine = _sine_cosine(angle - cam.guide_angle)
     target = sine + _sine_cosine(cam.guide_angle)[0]
-    if cam.setting is None:  # sin(alpha) = target
+    if seated:  # sin(alpha) = target
         slope = xp.sqrt(1.0 - target * target)
         alpha = xp.arcsin(target) if xp is np else unit_angle(slope, target)
         by_angle = cosine / slope

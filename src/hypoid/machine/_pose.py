@@ -7,7 +7,7 @@ their powers are there only where they do, so that a machine at rest costs nothi
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field
 
 import jax
 import jax.numpy as jnp
@@ -54,6 +54,8 @@ class Generator:
     cutter_lead: Scalar
     cam: Cam | None
     axes: Axes | None
+    # Whether the cam stands on its nominal seat (a plain zero, not a traced one): closed, no search.
+    seated: bool = field(default=False, metadata={"static": True})
 
 
 def generator(settings: MachineSettings) -> Generator:
@@ -70,9 +72,6 @@ def generator(settings: MachineSettings) -> Generator:
         axes = Axes(
             **{n: powers(getattr(settings, n), getattr(settings.motions, n)) for n in names}
         )
-    cam = settings.cam
-    if cam is not None and isinstance(cam.setting, float) and cam.setting == 0.0:
-        cam = replace(cam, setting=None)  # closed: no search for the cam's parameter
     roll = settings.ratio_of_roll * powers(1.0, settings.modified_roll)[:ORDERS]
     if settings.cam is not None:  # its first power, where closed forms begin
         roll = number([cam_roll(settings.cam, number(0.0))[1], *[0.0] * (ORDERS - 1)])
@@ -91,9 +90,14 @@ def generator(settings: MachineSettings) -> Generator:
         roll=roll,
         blade_ratio=number(settings.roll_to_blade_ratio),
         cutter_lead=number(settings.cutter_lead),
-        cam=cam,
+        cam=settings.cam,
+        seated=_seated(settings.cam),
         axes=axes,
     )
+
+
+def _seated(cam: Cam | None) -> bool:
+    return cam is not None and isinstance(cam.setting, float) and cam.setting == 0.0
 
 
 def _centre(radial: Scalar, cradle_angle: Scalar) -> Vector:
@@ -157,7 +161,7 @@ def pose(gen: Generator, phi: Batch) -> Pose:
         series, rate = _powers(gen.roll, phi)
         roll, roll_rate = series * phi, rate * phi + series
     else:
-        roll, roll_rate = cam_roll(gen.cam, phi)
+        roll, roll_rate = cam_roll(gen.cam, phi, seated=gen.seated)
     at = (gen.centre, gen.head, gen.blank_offset, gen.root_sine, gen.root_cosine)
     back, rates = gen.machine_center_to_back, None
     if gen.axes is not None:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import degrees
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from hypoid.flank import SIDES, ToothGrid, tooth_facts
+from hypoid.flank import SIDES, ToothFacts, ToothGrid
 from hypoid.pair import GearPair, Member
 
 from ._style import BLACK, GREY, PINION, STEEL, VERMILION, WHEEL, figure
@@ -72,22 +73,21 @@ def _section(axes: Axes, member: Member, grid: ToothGrid, k: int, colour: str) -
     axes.set_ylabel("H [mm]")
 
 
-def tooth_rows(pair: GearPair) -> list[tuple[object, ...]]:
+def tooth_rows(teeth: Mapping[str, ToothFacts]) -> list[tuple[object, ...]]:
     """Lands, thickness and depths of both members at toe, mean and heel, mm."""
     rows: list[tuple[object, ...]] = []
-    for member in (pair.pinion, pair.wheel):
-        for s in tooth_facts(member.tooth).sections:
+    for member, facts in teeth.items():
+        for s in facts.sections:
             widths = (s.top_land, s.thickness, s.slot_width, s.slot_bottom)
             depths = (s.whole_depth, s.nominal_depth)
-            rows.append((f"{member.name}, {s.place}", *(f"{v:.3f}" for v in (*widths, *depths))))
+            rows.append((f"{member}, {s.place}", *(f"{v:.3f}" for v in (*widths, *depths))))
     return rows
 
 
-def tooth_notes(pair: GearPair) -> list[str]:
+def tooth_notes(teeth: Mapping[str, ToothFacts]) -> list[str]:
     """Necks and pointed ends of both members, in words."""
     words: list[str] = []
-    for member in (pair.pinion, pair.wheel):
-        facts = tooth_facts(member.tooth)
+    for member, facts in teeth.items():
         words += [
             f"{neck.flank}: undercut, a neck with a pressure angle of {degrees(neck.pressure_angle):.2f} deg "
             f"at S = {neck.cone_distance:.2f} mm, H = {neck.height:.3f} mm."
@@ -99,6 +99,6 @@ def tooth_notes(pair: GearPair) -> list[str]:
             if facts.secondary_face_angle is not None:
                 more = f"; a secondary face angle of {degrees(facts.secondary_face_angle):.2f} deg follows the tips"
             words.append(
-                f"{member.name}: pointed from S = {start:.2f} to {end:.2f} mm, below the face cone{more}."
+                f"{member}: pointed from S = {start:.2f} to {end:.2f} mm, below the face cone{more}."
             )
     return words

@@ -215,7 +215,7 @@ def _tooth(found: Results) -> str:
         "whole depth [mm]",
         "nominal [mm]",
     )
-    words = tooth_notes(pair)
+    words = tooth_notes(found.teeth)
     if found.backlash is not None and np.isfinite(found.backlash.wheel_angle):
         b = found.backlash
         words.append(
@@ -224,7 +224,7 @@ def _tooth(found: Results) -> str:
         )
     return (
         drawing(to_svg(tooth_figure(pair)), "Sections S = const, unrolled about the axis; red: fillets; black: top land and slot bottom; dashed: pitch cone.")
-        + table(head, tooth_rows(pair))
+        + table(head, tooth_rows(found.teeth))
         + "".join(note(line) for line in words)
     )  # fmt: skip
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TypeVar
@@ -29,6 +29,7 @@ from hypoid.contact import (
     unloaded_contact,
     vh_check,
 )
+from hypoid.flank import ToothFacts, tooth_facts
 from hypoid.pair import Direction, GearPair
 
 DIRECTIONS: tuple[Direction, ...] = ("drive", "coast")
@@ -78,6 +79,12 @@ class Results:
     pair: GearPair
     drive: DirectionResult
     coast: DirectionResult
+
+    @cached_property
+    def teeth(self) -> Mapping[str, ToothFacts]:
+        """What both members' teeth are like, by member."""
+        members = (self.pair.pinion, self.pair.wheel)
+        return {member.name: tooth_facts(member.tooth) for member in members}
 
     @cached_property
     def backlash(self) -> Backlash | None:

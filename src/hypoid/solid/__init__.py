@@ -8,20 +8,28 @@ from typing import TYPE_CHECKING, Any
 
 from ._body import Body as Body
 from ._body import body as body
+from ._mesh import STEEL as STEEL
 from ._mesh import MassProperties as MassProperties
 from ._mesh import SurfaceMesh as SurfaceMesh
 from ._mesh import mass_properties as mass_properties
 from ._request import chord_problems as chord_problems
 from ._request import largest_bore as largest_bore
 from ._request import ring_problems as ring_problems
+from ._request import tooth_problems as tooth_problems
 
 if TYPE_CHECKING:
+    from ._brep import Arc as Arc
     from ._brep import Brep as Brep
+    from ._brep import Flat as Flat
+    from ._brep import Segment as Segment
+    from ._brep import SplineSurface as SplineSurface
+    from ._brep import Turned as Turned
     from ._gear_brep import gear_brep as gear_brep
     from ._hex_mesh import HexMesh as HexMesh
     from ._hex_mesh import hex_mesh as hex_mesh
     from ._hex_quality import Quality as Quality
     from ._probes import probes as probes
+    from ._splines import SplineCurve as SplineCurve
     from ._splines import tooth_splines as tooth_splines
     from ._surface_mesh import surface_mesh as surface_mesh
 
@@ -30,7 +38,8 @@ _LAZY = {
     "hex_mesh": "_hex_mesh",
     "Quality": "_hex_quality",
     "surface_mesh": "_surface_mesh",
-    "Brep": "_brep",
+    **dict.fromkeys(("Arc", "Brep", "Flat", "Segment", "SplineSurface", "Turned"), "_brep"),
+    "SplineCurve": "_splines",
     "gear_brep": "_gear_brep",
     "probes": "_probes",
     "tooth_splines": "_splines",

@@ -17,11 +17,10 @@ from typing import Any
 
 import numpy as np
 
-from hypoid.flank import PitchCone, Tooth, ToothGrid
+from hypoid.flank import SIDES, PitchCone, Tooth, ToothGrid
 
 from ._body import Body
 from ._division import Division
-from ._joints import SIDES
 
 Array = np.ndarray[Any, Any]
 Line = tuple[Array, Array]  # heights (mm) and angles (rad, left hand) of places

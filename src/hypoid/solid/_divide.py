@@ -10,14 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from hypoid.flank import Side, Tooth
+from hypoid.flank import SIDES, Side, Tooth
 from hypoid.geometry import DesignError, Problem
 
 from ._body import Body
 from ._cell import Cell, cell
 from ._chords import Chords, chords
 from ._division import Division, doubled_grid, evened, spread, spread_rows
-from ._joints import SIDES, Joints, joints_of
+from ._joints import Joints, joints_of
 from ._request import tooth_problems
 from ._topology import cartesian
 

@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 
-from hypoid.flank import Side, Tooth, ToothGrid
+from hypoid.flank import SIDES, Side, Tooth, ToothGrid
 
-from ._joints import SIDES, Joints
+from ._joints import Joints
 
 Array = np.ndarray[Any, Any]
 LEAST = 0.2  # of the mean density of places: the least that a direction keeps anywhere

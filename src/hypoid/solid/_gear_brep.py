@@ -36,7 +36,7 @@ class _Builder:
         self.brep = Brep()
         self._member, self._spans, self._body = member, splines, body
         self._teeth_count, self._whole = teeth, teeth == member.teeth
-        self._hand = np.array([1.0, -1.0 if member.concave.mirrored else 1.0, 1.0])
+        self._hand = member.concave.hand
         count = len(splines[0].patches)
         each = [(k, i, 0.0, 1.0) for k in range(teeth) for i in range(count)]
         if not self._whole:

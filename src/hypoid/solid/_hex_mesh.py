@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float, Int
 
-from hypoid.flank import Side, ToothGrid
+from hypoid.flank import SIDES, Side, ToothGrid
 from hypoid.geometry import DesignError, Problem
 from hypoid.pair import Member
 
 from ._body import Body, body
 from ._hex_cell import PARTS, Cell, cell, face_nodes
 from ._hex_layout import Layout, Root
-from ._hex_outline import SIDES, arc_lengths, bottom_lines, flank_line, has_fillet, joint, tips
+from ._hex_outline import arc_lengths, bottom_lines, flank_line, has_fillet, joint, tips
 from ._hex_quality import Quality, quality
 from ._hex_ring import ring
 from ._hex_section import Outline, depths, sections
@@ -154,8 +154,7 @@ def _one(
     )
     line, there = sections(plan, outline, cone)
     made = cell(plan, line, there, below, quadratic, mirrored)
-    hand = np.array([1.0, -1.0 if mirrored else 1.0, 1.0])
-    return replace(made, nodes=made.nodes * hand)
+    return replace(made, nodes=made.nodes * member.concave.hand)
 
 
 def _root(member: Member, grid: ToothGrid, side: Side, counts: dict[str, int]) -> Root:

@@ -17,7 +17,6 @@ from hypoid.geometry import DesignError, Problem
 from ._hex_layout import Root
 
 Array = np.ndarray[Any, Any]
-SIDES: tuple[Side, Side] = ("concave", "convex")
 GRADE = 1.5  # elements over which the fillet's size goes over into the flank's
 THROUGH = 6.0  # thickness of an element in a tooth's middle to one at its flanks
 
@@ -80,12 +79,12 @@ def flank_line(
         angle[k] = np.interp(at[k], length[k], dense.angle[k])
     height[:, -1] = tip
     z, rho = (np.asarray(v) for v in cone.axial_radial(distance[:, None], height))
-    points = flank.at(z[:, 1:], rho[:, 1:]).position
+    points = flank.at(z[:, 1:], rho[:, 1:]).position * flank.hand
     if not np.isfinite(points).all():
         k = int(np.flatnonzero(~np.isfinite(points).all(axis=1))[0]) // (at.shape[1] - 1)
         raise DesignError([_missing(flank, float(distance[k]))])
     x, y, along = points.T.reshape(3, len(distance), -1)
-    own = np.arctan2(-y if flank.mirrored else y, x)
+    own = np.arctan2(y, x)
     turn = 0.0 if side == "concave" else tooth.turn
     steps = np.round((angle[:, 1:] - own - turn) / tooth.pitch)
     angle[:, 1:] = own + turn + tooth.pitch * steps

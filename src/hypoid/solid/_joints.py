@@ -12,7 +12,6 @@ from scipy.interpolate import CubicSpline
 from hypoid.flank import Flank, Side, ToothGrid
 
 Array = np.ndarray[Any, Any]
-SIDES: tuple[Side, Side] = ("concave", "convex")
 NEAR_END = 0.03  # a joint nearer to root or tip than this share of the height is not followed
 LOOKS, AT_ONCE = 3, 48  # narrowings of where an undercut joint lies, and into how many parts
 

@@ -55,8 +55,7 @@ class Piece:
         reached = np.repeat(distance, len(share))
         turn, _ = edge_line(flank.surface, flank.pieces[self.piece], flank.cone, reached, s, turn)
         shape = (len(distance), len(share), 3)
-        hand = np.array([1.0, -1.0 if flank.mirrored else 1.0, 1.0])
-        position, normal = (a * hand for a in flank.at_cutter(s, turn, self.piece))
+        position, normal = (a * flank.hand for a in flank.at_cutter(s, turn, self.piece))
         return position.reshape(shape), normal.reshape(shape)
 
 
@@ -74,8 +73,7 @@ class Merged:
         low, high = (border(distance)[:, None] for border in (self.low, self.high))
         height = low + (high - low) * share**2
         at = self.flank.at_cone(np.broadcast_to(distance[:, None], height.shape), height)
-        hand = np.array([1.0, -1.0 if self.flank.mirrored else 1.0, 1.0])
-        shape = (*height.shape, 3)
+        shape, hand = (*height.shape, 3), self.flank.hand
         return (at.position * hand).reshape(shape), (at.normal * hand).reshape(shape)
 
 
@@ -133,7 +131,7 @@ def _is_cut(piece: Piece, span: tuple[float, float]) -> bool:
     flank = piece.flank
     point = piece.at(distance, np.linspace(0.05, 0.95, 5))[0].reshape(-1, 3)
     seen = flank.at(point[:, 2], np.hypot(point[:, 0], point[:, 1])).position
-    return bool(np.abs(seen * [1.0, -1.0 if flank.mirrored else 1.0, 1.0] - point).max() < 1e-6)
+    return bool(np.abs(seen * flank.hand - point).max() < 1e-6)
 
 
 def _borders(
@@ -223,8 +221,8 @@ def _meet(
         own = flank.pieces[names[which]]
         turn, up = edge_line(flank.surface, own, flank.cone, distance, s, turns[which])
         turns[which] = turn
-        x, y, _ = flank.at_cutter(s, turn, names[which])[0].T
-        return np.stack([up, np.arctan2(-y if flank.mirrored else y, x)])
+        x, y, _ = (flank.at_cutter(s, turn, names[which])[0] * flank.hand).T
+        return np.stack([up, np.arctan2(y, x)])
 
     line, turns = [a for a, _ in start], [b for _, b in start]
     step, left = 1e-5, np.full((2, 1), np.inf)

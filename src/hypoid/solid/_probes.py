@@ -9,7 +9,7 @@ import numpy as np
 
 from hypoid.flank import Side, Tooth
 
-from ._strips import Span, to_slot
+from ._strips import Span
 
 Array = np.ndarray[Any, Any]
 INSET = 0.02  # share of a face that is left out at its borders
@@ -26,7 +26,7 @@ class Probe:
 def probes(tooth: Tooth, spans: tuple[Span, ...], count: int = 15) -> tuple[Probe, ...]:
     """So many by so many points a face, even along it and across; those of a left-hand member's tooth at angle zero."""
     inner = np.linspace(INSET, 1.0 - INSET, count)
-    turns: dict[Side, float] = {"concave": 0.0, "convex": to_slot(tooth)}
+    turns: dict[Side, float] = {"concave": 0.0, "convex": tooth.convex_turn}
     found: list[Probe] = []
     for span in spans:
         distance = span.start + (span.end - span.start) * inner

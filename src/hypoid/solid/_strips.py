@@ -18,13 +18,12 @@ import numpy as np
 from scipy.interpolate import RectBivariateSpline
 from scipy.optimize import brentq
 
-from hypoid.flank import Flank, Side, Tooth
+from hypoid.flank import SIDES, Flank, Side, Tooth
 
 from ._pieces import ORDER, Merged, Piece, pieces, rise
 
 Array = np.ndarray[Any, Any]
 Points = Callable[[Array, Array], tuple[Array, Array]]
-SIDES: tuple[Side, Side] = ("concave", "convex")
 LAND = 0.02  # mm, the land that a pointed tooth is left with
 SCAN = 65  # sections, and heights in each, that are looked at
 ACROSS = 9  # points across the slot's bottom
@@ -54,7 +53,7 @@ class Span:
 
 def spans(tooth: Tooth) -> tuple[Span, ...]:
     """The tooth's strips, toe to heel, in as many spans as the top land asks for."""
-    turns = {"concave": 0.0, "convex": to_slot(tooth)}
+    turns = {"concave": 0.0, "convex": tooth.convex_turn}
     stations, pointed = _stations(tooth, turns)
     bottom = _bottom(tooth)
     parts = list(zip(stations[:-1], stations[1:], pointed, strict=True))
@@ -64,21 +63,9 @@ def spans(tooth: Tooth) -> tuple[Span, ...]:
     return made
 
 
-def to_slot(tooth: Tooth) -> float:
-    """Turn, rad, that takes the convex flank to where it bounds the same tooth as the concave one."""
-    middle = np.array([0.5 * (tooth.concave.toe + tooth.concave.heel)])
-    here = [float(_angle(tooth.flank(s), middle, np.zeros(1))[0]) for s in SIDES]
-    return here[0] - here[1] + tooth.pitch - float(tooth.slot_angle(middle)[0])
-
-
-def _angle(flank: Flank, distance: Array, height: Array) -> Array:
-    x, y, _ = flank.at_cone(distance, height).position.T
-    return np.arctan2(-y if flank.mirrored else y, x)
-
-
 def _land(tooth: Tooth, turns: dict[str, float], distance: Array, height: Array) -> Array:
     """Thickness of the tooth, mm along the arc, negative where the flanks have crossed below."""
-    concave, convex = (_angle(tooth.flank(s), distance, height) + turns[s] for s in SIDES)
+    concave, convex = (tooth.flank(s).left_angle(distance, height) + turns[s] for s in SIDES)
     radius = tooth.concave.cone.axial_radial(distance, height)[1]
     return np.angle(np.exp(1j * (convex - concave))) * radius
 

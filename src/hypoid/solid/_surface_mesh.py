@@ -58,8 +58,8 @@ def surface_mesh(
     used[triangles] = True
     vertices, normals, triangles = vertices[used], normals[used], (np.cumsum(used) - 1)[triangles]
     if member.concave.mirrored:
-        hand = np.array([1.0, -1.0, 1.0])
-        vertices, normals, triangles = vertices * hand, normals * hand, triangles[:, ::-1]
+        hand, triangles = member.concave.hand, triangles[:, ::-1]
+        vertices, normals = vertices * hand, normals * hand
     return SurfaceMesh(
         member=member.name,
         teeth=count,
