@@ -1,0 +1,1 @@
+"""Inspection: measuring grids, deviations, corrections."""
