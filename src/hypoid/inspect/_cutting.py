@@ -7,7 +7,8 @@ is solved again, and one compiled function serves every method, motion and blade
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 import jax
@@ -166,16 +167,10 @@ def on_lines(cut: Cutting, s: Array, turn: Array, point: Array, normal: Array) -
     return np.where(left < LEFT, distance, np.nan)
 
 
-def difference(plus: Cutting, minus: Cutting, step: float) -> Cutting:
-    """Central difference of two trees."""
-    return jax.tree_util.tree_map(lambda a, b: (a - b) / (2.0 * step), plus, minus)
-
-
-def fourth_order(near: Cutting, far: Cutting) -> Cutting:
-    """Richardson's step over central differences of step h and 2 h: error O(h**4)."""
-    return jax.tree_util.tree_map(lambda a, b: (4.0 * a - b) / 3.0, near, far)
-
-
-def with_piece(cut: Cutting, piece: EdgePiece) -> Cutting:
-    """The same settings with another piece."""
-    return replace(cut, piece=piece)
+def combined(trees: Mapping[int, Cutting], weights: Mapping[int, float]) -> Cutting:
+    """Sum of trees by weights."""
+    keys = list(weights)
+    return jax.tree_util.tree_map(
+        lambda *leaves: sum(weights[k] * leaf for k, leaf in zip(keys, leaves, strict=True)),
+        *(trees[k] for k in keys),
+    )
