@@ -1,1 +1,30 @@
-"""Inspection: measuring grids, deviations, corrections."""
+"""Inspection: measuring grids, measured flanks against exact ones, corrections of what a shop dials."""
+
+from ._compare import Comparison as Comparison
+from ._compare import PitchDeviations as PitchDeviations
+from ._compare import SideComparison as SideComparison
+from ._compare import compare as compare
+from ._correct import Correction as Correction
+from ._correct import Wish as Wish
+from ._correct import correction as correction
+from ._correct import rms as rms
+from ._grid import Borders as Borders
+from ._grid import FlankNodes as FlankNodes
+from ._grid import MeasuringGrid as MeasuringGrid
+from ._grid import measuring_grid as measuring_grid
+from ._loop import LoopResult as LoopResult
+from ._loop import random_errors as random_errors
+from ._loop import simulated_loop as simulated_loop
+from ._loop import true_deviation as true_deviation
+from ._measured import Measured as Measured
+from ._measured import MeasuredSide as MeasuredSide
+from ._measured import measured_points as measured_points
+from ._response import Response as Response
+from ._setup import Adjustment as Adjustment
+from ._setup import Setup as Setup
+from ._setup import recut_pair as recut_pair
+from ._setup import setups as setups
+from ._solve import NullDirection as NullDirection
+from ._solve import shown_step as shown_step
+from ._topography import Topography as Topography
+from ._topography import topography as topography

@@ -90,7 +90,9 @@ class Comparison:
 
     grid: MeasuringGrid
     sides: Mapping[Side, SideComparison]
-    thickness: float | None  # mm, deviation of the tooth thickness at the reference point, along the arc
+    thickness: (
+        float | None
+    )  # mm, deviation of the tooth thickness at the reference point, along the arc
     axial: float  # mm along the axis that was taken off
     pitch: Mapping[Side, PitchDeviations]
     runout: float | None  # mm, square to the pitch cone, of a ball between a slot's flanks
@@ -136,7 +138,9 @@ def compare(
         sides = {side: _side(grid, side, one, shift, zero) for side, one in measured.sides.items()}
     by_points = all(one.position is not None for one in measured.sides.values())
     thickness = _thickness(sides) if by_points else measured.thickness
-    pitch = {s: found for s, one in sides.items() if by_points and (found := _pitch(one, grid.pitch))}
+    pitch = {
+        s: found for s, one in sides.items() if by_points and (found := _pitch(one, grid.pitch))
+    }
     runout = _runout(grid, sides) if by_points else None
     return Comparison(grid, sides, thickness, shift, pitch, runout)
 

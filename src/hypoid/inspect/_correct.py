@@ -35,7 +35,9 @@ class Wish:
     rank: int | None = None  # directions to correct; None: by the noise
     rounded: bool = True  # steps on the dials' increments
     increments: Mapping[str, float] = field(default_factory=dict[str, float])
-    bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict[str, tuple[float, float]])
+    bounds: Mapping[str, tuple[float, float]] = field(
+        default_factory=dict[str, tuple[float, float]]
+    )
     on_machine: Mapping[str, float] = field(default_factory=dict[str, float])  # steps taken before
     weights: Mapping[Side, Array] = field(default_factory=dict[Side, Array])
     target: Mapping[Side, Array] = field(default_factory=dict[Side, Array])  # (n,) mm, 0 by default
@@ -52,7 +54,9 @@ class Correction:
     total: Mapping[str, float]  # from the design's settings: those taken before and these
     before: Mapping[Side, Array]  # deviation from the target
     predicted: Mapping[Side, Array]  # of the flank that the steps cut, exactly; part turned to fit
-    uncertainty: Mapping[Side, Array]  # standard deviation of the predicted map from measuring noise
+    uncertainty: Mapping[
+        Side, Array
+    ]  # standard deviation of the predicted map from measuring noise
     directions: Directions
     rank: int
     kept: Array  # (k,) bool, directions corrected along
@@ -235,7 +239,12 @@ def _gauss_newton(
 
 
 def _descend(
-    problem: _Problem, names: tuple[str, ...], found: Directions, free: Array, start: Array, how: Wish
+    problem: _Problem,
+    names: tuple[str, ...],
+    found: Directions,
+    free: Array,
+    start: Array,
+    how: Wish,
 ) -> tuple[Array, Array, bool]:
     total = start.copy()
     left = problem.taken_out @ problem.at(dict(zip(names, total, strict=True)))

@@ -89,9 +89,7 @@ def cutting(settings: MachineSettings, piece: EdgePiece, surface: Surface, way: 
     return Cutting(
         numbers={name: float(getattr(settings, name)) for name in NUMBERS},
         modified_roll=row(settings.modified_roll, ORDERS - 1),
-        motions={
-            f.name: row(getattr(settings.motions, f.name), ORDERS) for f in fields(Motions)
-        },
+        motions={f.name: row(getattr(settings.motions, f.name), ORDERS) for f in fields(Motions)},
         cam=cam,
         piece=piece,
         branch=surface.branch,

@@ -117,9 +117,7 @@ class FlankNodes:
             mine = np.flatnonzero(self.there & (self.points.piece == k))
             if len(mine):
                 surface = self.flank.surface
-                cut = cutting(
-                    self.flank.settings, self.flank.pieces[name], surface, surface.way
-                )
+                cut = cutting(self.flank.settings, self.flank.pieces[name], surface, surface.way)
                 s, turn = self.points.s[mine], self.points.theta[mine]
                 made.append(PointGroup(cut, mine, *angles_of(cut, s, turn)))
         return tuple(made)

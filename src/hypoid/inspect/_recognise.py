@@ -17,8 +17,17 @@ from ._measured import Measured
 Array = np.ndarray[Any, Any]
 FITS = 0.1  # mm rms: closer than this, nothing else is looked for
 BETTER = 0.3  # share of the misfit that another reading must come below
-AXES = {"": (0, 1, 2), "with the axis along x, not z": (1, 2, 0), "with the axis along y, not z": (2, 0, 1)}
-SCALES = {"": 1.0, "in inches, not mm": 25.4, "in metres, not mm": 1000.0, "in micrometres, not mm": 0.001}
+AXES = {
+    "": (0, 1, 2),
+    "with the axis along x, not z": (1, 2, 0),
+    "with the axis along y, not z": (2, 0, 1),
+}
+SCALES = {
+    "": 1.0,
+    "in inches, not mm": 25.4,
+    "in metres, not mm": 1000.0,
+    "in micrometres, not mm": 0.001,
+}
 LARGE = 1.0  # mm: no deviation is so large
 Reading = tuple[str, float]
 
@@ -43,7 +52,11 @@ def recognise(
             same = same[np.isfinite(same)]
             if same.size and np.median(same) < 0.0:
                 words = "normals that point out of the tooth (these point into it)"
-                found.append(Problem(f"measured: {side}", "reversed normals", words, 'normals = "into-tooth"'))
+                found.append(
+                    Problem(
+                        f"measured: {side}", "reversed normals", words, 'normals = "into-tooth"'
+                    )
+                )
     return found  # fmt: skip
 
 
@@ -67,13 +80,17 @@ def _problem(
     here: float,
     others: Mapping[str, MeasuringGrid],
 ) -> Problem:
-    words, least = min(_readings(grid, nodes, points, others), key=lambda r: (round(r[1], 2), len(r[0])))
+    words, least = min(
+        _readings(grid, nodes, points, others), key=lambda r: (round(r[1], 2), len(r[0]))
+    )
     given = f"points {here:.3g} mm rms off the {nodes.flank.name} flank, however the part is turned"
     if least < BETTER * here:
         return Problem(f"measured: {nodes.side}", f"{given}; {words}", f"points of the {nodes.flank.name} flank, "
                        "rows root to tip, columns toe to heel, in mm, z along the axis", "see --nominal")  # fmt: skip
     expected = "points of this design's grid (same rows, columns and borders)"
-    return Problem(f"measured: {nodes.side}", given, expected, "hypoid inspect FILE --nominal OUT.csv")
+    return Problem(
+        f"measured: {nodes.side}", given, expected, "hypoid inspect FILE --nominal OUT.csv"
+    )
 
 
 def _readings(
@@ -120,7 +137,9 @@ def _to_tooth(nodes: FlankNodes, position: Array, normal: Array) -> Array:
         there = np.isfinite(points).all(axis=1)
         turn = np.vdot(nodes.position[there] @ [1.0, 1j, 0.0], points[there] @ [1.0, 1j, 0.0])
         c, s = turn.real / abs(turn), turn.imag / abs(turn)
-        made.append(np.stack([c * n[:, 0] - s * n[:, 1], s * n[:, 0] + c * n[:, 1], n[:, 2]], axis=-1))
+        made.append(
+            np.stack([c * n[:, 0] - s * n[:, 1], s * n[:, 0] + c * n[:, 1], n[:, 2]], axis=-1)
+        )
     return np.array(made)
 
 

@@ -11,7 +11,9 @@ Array = np.ndarray[Any, Any]
 TOGETHER = 3  # dials that are moved by an increment at once
 MOST = 12  # dials that are searched so; more are moved two at once
 ROUNDS = 200
-DRIFT = 1e-3  # mm: what a change by the reach costs, so that no dial runs off along an empty direction
+DRIFT = (
+    1e-3  # mm: what a change by the reach costs, so that no dial runs off along an empty direction
+)
 GAIN = 1e-16  # mm**2, of the sum of squares
 
 
@@ -31,7 +33,10 @@ def on_increments(
     follow = np.zeros((len(loose), int(on.sum())))
     if len(loose):
         inner = gram[np.ix_(loose, loose)]
-        follow = np.linalg.pinv(inner, rcond=1e-10, hermitian=True) @ gram[np.ix_(loose, np.flatnonzero(on))]
+        follow = (
+            np.linalg.pinv(inner, rcond=1e-10, hermitian=True)
+            @ gram[np.ix_(loose, np.flatnonzero(on))]
+        )
         gram = gram[np.ix_(on, on)] - gram[np.ix_(on, ~on)] @ follow
     own, size = grain[on], steps[on]
     moves = _moves(len(own)) * own

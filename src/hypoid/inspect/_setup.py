@@ -234,7 +234,9 @@ def _blade_adjustments(member: Member, side: Side) -> list[Adjustment]:
     inf = math.inf
     if isinstance(head, FaceHobHead):
         value = blade.pressure_angle
-        return [Adjustment(f"{side}.blade_angle", "angle", value, -inf, inf, MINUTE, math.radians(0.1))]
+        return [
+            Adjustment(f"{side}.blade_angle", "angle", value, -inf, inf, MINUTE, math.radians(0.1))
+        ]
     return [
         Adjustment(f"{side}.blade_angle", "angle", blade.angle, -inf, inf, MINUTE, math.radians(0.1)),
         Adjustment(f"{side}.point_radius", "length", blade.point_radius, 0.0, inf, HUNDREDTH, 0.2),

@@ -17,7 +17,9 @@ from ._setup import Adjustment, Setup
 
 Array = np.ndarray[Any, Any]
 ABOVE_NOISE = 3.0  # times the noise: what a plausible change along a direction must do to the flank
-ASKED = 2.0**0.5  # times the noise: what must be asked along it (Mallows: less costs more than it gains)
+ASKED = (
+    2.0**0.5
+)  # times the noise: what must be asked along it (Mallows: less costs more than it gains)
 NOTHING = 1e-9  # mm, singular values of exact null directions
 SHOWN = 0.05  # share of the largest part below which an adjustment is not named
 # Why some directions are empty (notes on lin1996, inspection).
@@ -97,7 +99,9 @@ def null_directions(found: Directions, setup: Setup, points: int) -> tuple[NullD
         rms = float(np.sqrt((effect**2).sum() / points))
         there = np.abs(row) > SHOWN
         steps = {
-            n: float(v) for n, v, on in zip(found.names, row * found.reach, there, strict=True) if on
+            n: float(v)
+            for n, v, on in zip(found.names, row * found.reach, there, strict=True)
+            if on
         }
         made.append(NullDirection(steps, rms, _words(steps, rms, setup)))
     return tuple(made)
@@ -121,7 +125,11 @@ def _words(steps: Mapping[str, float], rms: float, setup: Setup) -> str:
     parts = [f"{n} {shown_step(setup.adjustments[n], s)}" for n, s in steps.items()]
     bare = frozenset(n.split(".")[-1] for n in steps)
     reason = REASONS.get(bare, "")
-    effect = f"changes the flanks by {rms * 1e3:.2g} um rms" if rms > 5e-6 else "leaves the flanks as they are"
+    effect = (
+        f"changes the flanks by {rms * 1e3:.2g} um rms"
+        if rms > 5e-6
+        else "leaves the flanks as they are"
+    )
     return f"{' with '.join(parts)} {effect}{f' ({reason})' if reason else ''}"
 
 
