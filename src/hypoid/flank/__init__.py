@@ -13,6 +13,7 @@ from ._cut import lowest_line as lowest_line
 from ._cut import recut as recut
 from ._cut import roll_range as roll_range
 from ._cut import trimmed as trimmed
+from ._departure import Departure as Departure
 from ._deviation import Deviation as Deviation
 from ._deviation import deviation as deviation
 from ._envelope import Surface as Surface

@@ -19,6 +19,11 @@ from ._loop import true_deviation as true_deviation
 from ._measured import Measured as Measured
 from ._measured import MeasuredSide as MeasuredSide
 from ._measured import measured_points as measured_points
+from ._measured_flank import MeasuredFlank as MeasuredFlank
+from ._measured_flank import measured_flank as measured_flank
+from ._measured_flank import pair_as_measured as pair_as_measured
+from ._outcome import ContactState as ContactState
+from ._outcome import contact_states as contact_states
 from ._response import Response as Response
 from ._setup import Adjustment as Adjustment
 from ._setup import Setup as Setup
@@ -26,5 +31,7 @@ from ._setup import recut_pair as recut_pair
 from ._setup import setups as setups
 from ._solve import NullDirection as NullDirection
 from ._solve import shown_step as shown_step
+from ._target import form as form
+from ._target import mates_ease_off as mates_ease_off
 from ._topography import Topography as Topography
 from ._topography import topography as topography
