@@ -24,12 +24,17 @@ from ._measured_flank import measured_flank as measured_flank
 from ._measured_flank import pair_as_measured as pair_as_measured
 from ._outcome import ContactState as ContactState
 from ._outcome import contact_states as contact_states
+from ._readings import Reading as Reading
+from ._readings import dials_after as dials_after
+from ._readings import gears_after as gears_after
+from ._readings import readings as readings
 from ._response import Response as Response
 from ._setup import Adjustment as Adjustment
 from ._setup import Setup as Setup
 from ._setup import recut_pair as recut_pair
 from ._setup import setups as setups
 from ._solve import NullDirection as NullDirection
+from ._solve import shown_reading as shown_reading
 from ._solve import shown_step as shown_step
 from ._target import form as form
 from ._target import mates_ease_off as mates_ease_off

@@ -23,6 +23,7 @@ from ._solve import Directions, NullDirection, directions, null_directions, with
 
 Array = np.ndarray[Any, Any]
 ROUNDS = 12
+TINY = 1e-12  # mm, rad: what rounding leaves of no step
 CONVERGED = 1e-8  # mm rms that a further step would change
 
 
@@ -52,6 +53,7 @@ class Correction:
     steps: Mapping[str, float]  # to dial now; mm, rad or plain
     exact: Mapping[str, float]  # before rounding to increments
     total: Mapping[str, float]  # from the design's settings: those taken before and these
+    target: Mapping[Side, Array]  # deviation from the nominal that is wanted
     before: Mapping[Side, Array]  # deviation from the target
     predicted: Mapping[Side, Array]  # of the flank that the steps cut, exactly; part turned to fit
     uncertainty: Mapping[
@@ -63,6 +65,11 @@ class Correction:
     null: tuple[NullDirection, ...]
     converged: bool
     at_bounds: tuple[str, ...]
+
+    @property
+    def deviations_after(self) -> dict[Side, Array]:
+        """Predicted deviations from the nominal flank, (rows, columns) mm."""
+        return {side: left + self.target[side] for side, left in self.predicted.items()}
 
     @property
     def rms_before(self) -> float:
@@ -130,7 +137,7 @@ def correction(
         effect = problem.taken_out @ jacobian
         reach = np.array([setup.adjustments[n].reach for n in names])
         steps = on_increments(steps, np.array(grain), np.array(now), effect, limits, reach)
-    final = dict(zip(names, (float(s) for s in steps), strict=True))
+    final = {n: float(s) if abs(s) > TINY else 0.0 for n, s in zip(names, steps, strict=True)}
     left = problem.at(final)
     shape = (response.grid.rows, response.grid.columns)
 
@@ -147,6 +154,7 @@ def correction(
         final,
         {n: float(s) for n, s in exact.items()},
         added(how.on_machine, final),
+        {s: np.broadcast_to(how.target.get(s, 0.0), shape) for s in setup.sides},
         maps(problem.taken_out @ problem.asked / problem.root),
         maps(problem.taken_out @ left / problem.root),
         maps(spread / problem.root),

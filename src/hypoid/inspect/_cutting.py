@@ -152,7 +152,7 @@ def angles_of(cut: Cutting, s: Array, turn: Array) -> Rows:
 def normal_move(
     cut: Cutting, by: Cutting, s: Array, theta: Array, phi: Array, normal: Array
 ) -> Array:
-    """n . dr/dp (n,): how far the flank moves along unit normals (n, 3; left hand) along ``by``."""
+    """N . dr/dp (n,): how far the flank moves along unit normals (n, 3; left hand) along ``by``."""
     return (_moved_by(cut, by, s, theta, phi).T * normal).sum(axis=1)
 
 

@@ -68,7 +68,9 @@ def measured_flank(nodes: FlankNodes, deviation: Array, order: int | None = None
     error = np.full(value.size, np.nan)
     error[there] = best.error
     flank = replace(nodes.flank, surface=surface)
-    return MeasuredFlank(flank, best.order, best.residual, best.left_out, error.reshape(nodes.shape))
+    return MeasuredFlank(
+        flank, best.order, best.residual, best.left_out, error.reshape(nodes.shape)
+    )
 
 
 def pair_as_measured(
@@ -117,7 +119,13 @@ def _fit(x: Array, y: Array, added: Array, lever: Array, powers: Powers) -> _Fit
     for (i, j), c in zip(powers, fit, strict=True):
         table[i, j] = c
     out = left / np.maximum(1.0 - hat, 1e-6)
-    return _Fit(order, table, float(np.sqrt(np.mean(left**2))), float(np.sqrt(np.mean(out**2))), spread * np.sqrt(hat))
+    return _Fit(
+        order,
+        table,
+        float(np.sqrt(np.mean(left**2))),
+        float(np.sqrt(np.mean(out**2))),
+        spread * np.sqrt(hat),
+    )
 
 
 def _angles(nodes: FlankNodes, point: Array) -> tuple[Array, Array, Array]:

@@ -52,7 +52,7 @@ class Response:
         return found
 
     def sensitivity(self, names: Sequence[str]) -> Array:
-        """n . dr/dp (sides x n, names), mm per mm, rad or unit; rows without a point are zero.
+        """N . dr/dp (sides x n, names), mm per mm, rad or unit; rows without a point are zero.
 
         By JAX from basic settings, motions and the edge to the point; from dials and blade measures to these by
         fourth-order differences of their closed forms.

@@ -76,7 +76,7 @@ class Setup:
         """Basic settings with the dials moved by steps (mm, rad), not rounded."""
         own = {n: s for n, s in steps.items() if s and not n.startswith(SIDES)}
         if self.machine == "basic":
-            sheet = _moved_sheet(self.dials, own)
+            sheet = moved_sheet(self.dials, own)
             return replace(
                 from_sheet(sheet, self.member.blank.pitch_apex_beyond_crossing_point),
                 generated=self.dials.generated,
@@ -260,7 +260,7 @@ def _at(values: Any, index: int) -> float:
     return float(values[index]) if index < len(values) else 0.0
 
 
-def _moved_sheet(sheet: SummarySheet, steps: Mapping[str, float]) -> SummarySheet:
+def moved_sheet(sheet: SummarySheet, steps: Mapping[str, float]) -> SummarySheet:
     plain: dict[str, Any] = {}
     roll = np.array([*sheet.modified_roll, *[0.0] * 5][:5])
     motions: dict[str, Any] = {}

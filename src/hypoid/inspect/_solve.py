@@ -13,6 +13,8 @@ from typing import Any
 
 import numpy as np
 
+from hypoid.machine import shown
+
 from ._setup import Adjustment, Setup
 
 Array = np.ndarray[Any, Any]
@@ -140,3 +142,10 @@ def shown_step(adjustment: Adjustment, step: float) -> str:
     if adjustment.kind == "length":
         return f"{step:+.4g} mm"
     return f"{step:+.4g}"
+
+
+def shown_reading(adjustment: Adjustment, value: float) -> str:
+    """A reading as a person writes it."""
+    if adjustment.kind == "angle":
+        return shown(value, "angle")
+    return f"{value:.7g} mm" if adjustment.kind == "length" else f"{value:.8g}"

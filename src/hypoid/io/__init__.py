@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from ._inspection_layout import read_layout as read_layout
     from ._inspection_layout import user_layouts as user_layouts
     from ._inspection_read import read_inspection as read_inspection
+    from ._inspection_rewrite import corrected_design as corrected_design
     from ._inspection_write import inspection_json as inspection_json
     from ._inspection_write import inspection_text as inspection_text
     from ._mesh_files import write_mesh as write_mesh
@@ -44,6 +45,7 @@ _LAZY = {
     "layouts": "_inspection_layout",
     "read_layout": "_inspection_layout",
     "user_layouts": "_inspection_layout",
+    "corrected_design": "_inspection_rewrite",
     "read_inspection": "_inspection_read",
     "inspection_json": "_inspection_write",
     "inspection_text": "_inspection_write",

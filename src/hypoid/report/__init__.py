@@ -10,14 +10,22 @@ from ._progress import Progress as Progress
 from ._progress import terminal_progress as terminal_progress
 
 if TYPE_CHECKING:
+    from ._figures_inspect import correction_image as correction_image
+    from ._figures_inspect import topography_image as topography_image
     from ._report import ReportSummary as ReportSummary
     from ._report import report_html as report_html
     from ._report import write_report as write_report
 
-_LAZY = ("ReportSummary", "report_html", "write_report")
+_LAZY = {
+    "correction_image": "_figures_inspect",
+    "topography_image": "_figures_inspect",
+    "ReportSummary": "_report",
+    "report_html": "_report",
+    "write_report": "_report",
+}
 
 
 def __getattr__(name: str) -> Any:
     if name in _LAZY:
-        return getattr(import_module("._report", __name__), name)
+        return getattr(import_module(f".{_LAZY[name]}", __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
