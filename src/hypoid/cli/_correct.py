@@ -12,7 +12,7 @@ from cyclopts import Parameter
 
 from hypoid.geometry import DesignError, Problem
 
-from ._inspect import UM, MemberName, comparison_table
+from ._inspect import UM, Listed, MemberName, comparison_table
 from ._options import AsJson, DesignPath, quantities
 from ._output import report_faults, say, write_json, write_members, write_table
 
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from hypoid.inspect import Comparison, ContactState, Correction, Wish
 
 ARCSEC = 3600.0
-Listed = Annotated[tuple[str, ...], Parameter(consume_multiple=True)]
 
 
 def correct(

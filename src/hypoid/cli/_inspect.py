@@ -12,10 +12,11 @@ from ._options import AsJson, DesignPath, quantities
 from ._output import DONE, report_faults, say, write_json, write_members, write_table
 
 if TYPE_CHECKING:
-    from hypoid.inspect import Comparison, MeasuringGrid, SideComparison
+    from hypoid.inspect import Comparison, Measured, MeasuringGrid, SideComparison
 
 UM = 1e3
 MemberName = Literal["pinion", "wheel"]
+Listed = Annotated[tuple[str, ...], Parameter(consume_multiple=True)]
 
 
 def inspect(
@@ -34,6 +35,9 @@ def inspect(
     tip: float = 10.0,
     axial: Annotated[str, Parameter(allow_leading_hyphen=True)] = "0 mm",
     zero: Literal["reference", "best-fit"] = "reference",
+    identify: Annotated[bool, Parameter(negative=())] = False,
+    free: Listed = (),
+    noise: str = "1.5 um",
     figure: Path | None = None,
     json: AsJson = False,
 ) -> int:
@@ -65,15 +69,23 @@ def inspect(
         Axial place of the part on the machine less the nominal one ("0.02 mm"), or "fit".
     zero
         Turn the part until the reference point is at zero, or to the best fit.
+    identify
+        The gear is unknown and the design a rough guess: find the settings that cut the measured points.
+    free
+        What is to be found then: dials, "concave.blade_angle" and so on; the usual dials without it.
+    noise
+        Standard deviation of a measured point, for what is found.
     figure
         Draw the deviations: .svg or .png.
     """
-    import hypoid
+    from hypoid.design import build
     from hypoid.inspect import Borders, compare, measuring_grid
-    from hypoid.io import read_inspection
+    from hypoid.io import read_inspection, read_spec
 
     shift: Any = "fit" if axial == "fit" else quantities({"--axial": (axial, "length")})["--axial"]
-    pair = hypoid.read(file)
+    sigma = quantities({"--noise": (noise, "length")})["--noise"]
+    spec = read_spec(file)
+    pair = build(spec)
     borders = Borders(toe, heel, root, tip)
     grids = {
         m: measuring_grid(getattr(pair, m), rows, columns, borders) for m in ("pinion", "wheel")
@@ -85,6 +97,9 @@ def inspect(
         _show_grid(pair.title, grid, json)
         return report_faults(grid.faults)
     read = read_inspection(measured, grid, layout)
+    if identify:
+        names = tuple(n for group in free for n in group.replace(",", " ").split())
+        return _identify(pair, spec, grid, read, names, sigma, json)
     found = compare(grid, read, axial=shift, zero=zero, others=grids)
     if figure is not None:
         write_figure(figure, found)
@@ -93,6 +108,57 @@ def inspect(
     else:
         show_comparison(found)
     return report_faults(grid.faults) if grid.faults else DONE
+
+
+def _identify(
+    pair: Any, spec: Any, grid: MeasuringGrid, read: Measured, names: Any, noise: float, json: bool
+) -> int:
+    from hypoid.inspect import identify, setups, shown_reading, shown_step
+
+    tables: list[dict[str, Any]] = []
+    unsettled: list[str] = []
+    every = setups(pair, grid.member.name, spec)
+    known = {n for setup in every for n in setup.adjustments}
+    for setup in every:
+        if not set(setup.sides) <= set(read.sides):
+            continue
+        mine = tuple(n for n in names if n in setup.adjustments or n not in known)
+        found = identify(grid, setup, read, free=mine, noise=noise)
+        own = setup.adjustments
+        if not found.converged:
+            unsettled.append(
+                f"{setup.name}: not converged; a nearer guess, or fewer adjustments, may help."
+            )
+        tables.append(
+            {
+                "sides": setup.sides,
+                "machine": setup.machine,
+                "rms_um": found.rms * UM,
+                "found": {n: found.value(n) for n in found.steps},
+                "standard_error": found.standard_error,
+                "undecided": [n.words for n in found.undecided],
+                "units": "mm, rad, plain",
+            }
+        )
+        if json:
+            continue
+        write_table(
+            f"{setup.name} on {setup.machine}",
+            ["guess", "found", "standard error"],
+            (
+                (n, [shown_reading(own[n], own[n].value), shown_reading(own[n], found.value(n)),
+                     shown_step(own[n], found.standard_error[n]).lstrip("+")])
+                for n in found.steps
+            ),
+        )  # fmt: skip
+        say(
+            f"{setup.name}: the points lie {found.rms * UM:.2f} um rms off the flanks that these settings cut."
+        )
+        for null in found.undecided:
+            say(f"Undecided: {null.words}.")
+    if json:
+        write_json({"setups": tables})
+    return report_faults(unsettled)
 
 
 def write_nominal(path: Path, grid: MeasuringGrid, layout: str | None) -> None:

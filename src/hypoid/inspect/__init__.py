@@ -12,6 +12,8 @@ from ._grid import Borders as Borders
 from ._grid import FlankNodes as FlankNodes
 from ._grid import MeasuringGrid as MeasuringGrid
 from ._grid import measuring_grid as measuring_grid
+from ._identify import Identification as Identification
+from ._identify import identify as identify
 from ._loop import LoopResult as LoopResult
 from ._loop import random_errors as random_errors
 from ._loop import simulated_loop as simulated_loop
@@ -25,7 +27,6 @@ from ._measured_flank import pair_as_measured as pair_as_measured
 from ._outcome import ContactState as ContactState
 from ._outcome import contact_states as contact_states
 from ._readings import Reading as Reading
-from ._readings import dials_after as dials_after
 from ._readings import gears_after as gears_after
 from ._readings import readings as readings
 from ._response import Response as Response

@@ -137,6 +137,10 @@ def correction(
         effect = problem.taken_out @ jacobian
         reach = np.array([setup.adjustments[n].reach for n in names])
         steps = on_increments(steps, np.array(grain), np.array(now), effect, limits, reach)
+        total = added(how.on_machine, dict(zip(names, steps, strict=True)))
+        for name, step in setup.on_gears(total).items():
+            if name in names:
+                steps[names.index(name)] = step - how.on_machine.get(name, 0.0)
     final = {n: float(s) if abs(s) > TINY else 0.0 for n, s in zip(names, steps, strict=True)}
     left = problem.at(final)
     shape = (response.grid.rows, response.grid.columns)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -25,10 +25,11 @@ BACKWARD = {-k: -w for k, w in FORWARD.items()}
 
 @dataclass(frozen=True, eq=False)
 class Response:
-    """A setup over a measuring grid."""
+    """A setup over a measuring grid, whose nodes are those of the flanks cut at steps ``base`` (none: the nominal)."""
 
     setup: Setup
     grid: MeasuringGrid
+    base: Mapping[str, float] = field(default_factory=dict[str, float])
 
     def nodes(self, side: Side) -> FlankNodes:
         return self.grid.flanks[side]
@@ -68,14 +69,15 @@ class Response:
 
     def _column(self, name: str) -> Array:
         dial = self.setup.adjustments[name]
-        h = STEP * dial.reach
+        h, start = STEP * dial.reach, self.base.get(name, 0.0)
+        now = dial.value + start
         weights = CENTRAL
-        if not dial.low <= dial.value - 2.0 * h:
+        if not dial.low <= now - 2.0 * h:
             weights = FORWARD
-        elif not dial.value + 2.0 * h <= dial.high:
+        elif not now + 2.0 * h <= dial.high:
             weights = BACKWARD
         weights = {k: w / h for k, w in weights.items()}
-        where = {k: {name: k * h} for k in weights}
+        where = {k: {**self.base, name: start + k * h} for k in weights}
         settings = {k: self.setup.settings(steps) for k, steps in where.items()}
         parts: list[Array] = []
         for side in self.setup.sides:

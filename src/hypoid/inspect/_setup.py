@@ -112,9 +112,32 @@ class Setup:
         flank = replace(self.member.flank(side), pieces=self.pieces(side, steps))
         return recut(flank, self.settings(steps))
 
-    def reading(self, name: str, step: float) -> float:
-        """What a dial reads after a step, mm or rad, on the same turn as it reads now."""
-        return self.adjustments[name].value + step
+    def dials_after(self, total: Mapping[str, float]) -> Any:
+        """The machine's dials after steps (its own dataclass, or a sheet); gears are the nearest there are.
+
+        Raises
+        ------
+        DesignError
+            Where the machine cannot be set so.
+        """
+        own = {n: s for n, s in total.items() if s and not n.startswith(SIDES)}
+        if self.machine == "basic":
+            return moved_sheet(self.dials, own)
+        moved = {n: getattr(self.dials, n) + s for n, s in own.items() if n not in ROLLS}
+        dials = replace(self.dials, **moved)
+        wanted = [gears for n, gears in ROLLS.items() if n in own]
+        if not wanted:
+            return dials
+        new = machine_named(self.machine).from_basic(self.settings(total), self.work)
+        return replace(dials, **{gears: getattr(new, gears) for gears in wanted})
+
+    def on_gears(self, total: Mapping[str, float]) -> dict[str, float]:
+        """Steps of rolls that the nearest change gears really make, by name; none where no roll is stepped."""
+        rolls = [n for n in ROLLS if total.get(n)]
+        if self.machine == "basic" or not rolls:
+            return {}
+        made = machine_named(self.machine).to_basic(self.dials_after(total), self.work)
+        return {n: float(getattr(made, n)) - self.adjustments[n].value for n in rolls}
 
 
 def recut_pair(pair: GearPair, changes: list[tuple[Setup, Mapping[str, float]]]) -> GearPair:

@@ -10,7 +10,7 @@ from typing import Any
 import tomlkit
 
 from hypoid.flank import SIDES
-from hypoid.inspect import Correction, dials_after
+from hypoid.inspect import Correction
 from hypoid.machine import MACHINES
 
 ROLLED = {"ratio_of_roll": "ratio_gears", "helical_motion": "helical_gears"}
@@ -28,7 +28,7 @@ def corrected_design(path: str | Path, corrections: Sequence[Correction]) -> str
     for found in corrections:
         setup = found.setup
         member: Any = document[setup.member.name]
-        dials = dials_after(setup, found.total)
+        dials = setup.dials_after(found.total)
         moved = [n for n in found.total if found.total[n] and not n.startswith(SIDES)]
         for key in dict.fromkeys(
             ROLLED.get(n, n) if setup.machine != "basic" else n.split(".")[0] for n in moved
