@@ -17,6 +17,7 @@ from ._options import AsJson, DesignPath, quantities
 from ._output import report_faults, say, write_json, write_members, write_table
 
 if TYPE_CHECKING:
+    from hypoid.flank import Side
     from hypoid.inspect import Comparison, ContactState, Correction, Wish
 
 ARCSEC = 3600.0
@@ -179,7 +180,14 @@ def _wish(
     for name, text in _pairs_of(bounds, "--bounds", problems):
         low, dots, high = text.partition("..")
         if not dots:
-            problems.append(Problem("--bounds", text, "two readings with .. between", '--bounds "cradle_angle=66 deg..68 deg"'))  # fmt: skip
+            problems.append(
+                Problem(
+                    "--bounds",
+                    text,
+                    "two readings with .. between",
+                    '--bounds "cradle_angle=66 deg..68 deg"',
+                )
+            )
             continue
         ends[name] = (
             _value(name, low, "--bounds", problems),
@@ -287,7 +295,9 @@ def _steps_before(path: Path | None) -> dict[str, dict[str, float]]:
         }
     except (OSError, ValueError, KeyError, AttributeError, TypeError) as error:
         said = f"{path} ({error})"
-        raise DesignError([Problem("--on-machine", said, "a file that --save wrote", "--on-machine steps.json")]) from None  # fmt: skip
+        raise DesignError(
+            [Problem("--on-machine", said, "a file that --save wrote", "--on-machine steps.json")]
+        ) from None
 
 
 def _save(path: Path, corrections: list[Correction]) -> None:
@@ -305,7 +315,7 @@ def _pairs(
 ) -> dict[str, Any]:
     from hypoid.inspect import pair_as_measured
 
-    after = {s: m for c in corrections for s, m in c.deviations_after.items()}
+    after: dict[Side, Any] = {s: m for c in corrections for s, m in c.deviations_after.items()}
     now, predicted = pair, pair
     if other is not None:
         now, _ = pair_as_measured(pair, other.grid, other.deviations)

@@ -146,11 +146,17 @@ def _identify(
             f"{setup.name} on {setup.machine}",
             ["guess", "found", "standard error"],
             (
-                (n, [shown_reading(own[n], own[n].value), shown_reading(own[n], found.value(n)),
-                     shown_step(own[n], found.standard_error[n]).lstrip("+")])
+                (
+                    n,
+                    [
+                        shown_reading(own[n], own[n].value),
+                        shown_reading(own[n], found.value(n)),
+                        shown_step(own[n], found.standard_error[n]).lstrip("+"),
+                    ],
+                )
                 for n in found.steps
             ),
-        )  # fmt: skip
+        )
         say(
             f"{setup.name}: the points lie {found.rms * UM:.2f} um rms off the flanks that these settings cut."
         )
@@ -165,10 +171,10 @@ def write_nominal(path: Path, grid: MeasuringGrid, layout: str | None) -> None:
     """Write the nominal grid: JSON by the file's name, else text in a layout."""
     from hypoid.io import inspection_json, inspection_text, read_layout, write_text
 
-    if path.suffix == ".json":
-        text = inspection_json(grid)
-    else:
-        text = inspection_text(grid, read_layout(layout or "hypoid"))
+    plain = path.suffix != ".json"
+    text = (
+        inspection_text(grid, read_layout(layout or "hypoid")) if plain else inspection_json(grid)
+    )
     count = grid.rows * grid.columns
     say(f"{count} nominal points of each {grid.member.name} flank are in {write_text(path, text)}.")
 

@@ -1,4 +1,4 @@
-"""Measured against nominal: deviations along nominal normals, the part turned to fit, and the teeth against each other."""
+"""Measured against nominal: deviations along nominal normals, the part turned to fit, tooth against tooth."""
 
 from __future__ import annotations
 
@@ -69,7 +69,8 @@ class SideComparison:
         """Outlying points by name and tooth."""
         shape = self.nodes.shape
         return tuple(
-            f"tooth {self.teeth[t]}, {self.nodes.name(*divmod(int(k), shape[1]))} ({self.deviation[t, k] * 1e3:+.1f} um)"
+            f"tooth {self.teeth[t]}, {self.nodes.name(*divmod(int(k), shape[1]))} "
+            f"({self.deviation[t, k] * 1e3:+.1f} um)"
             for t, k in zip(*np.nonzero(self.outlier), strict=True)
         )
 
@@ -122,27 +123,40 @@ def compare(
         For too few points, and for what looks like another side, hand, member, unit or order.
     """
     problems = [
-        Problem(f"measured: {side}", f"{one.count} points", f"at least {LEAST}", "a grid of 5 x 9 points")
+        Problem(
+            f"measured: {side}",
+            f"{one.count} points",
+            f"at least {LEAST}",
+            "a grid of 5 x 9 points",
+        )
         for side, one in measured.sides.items()
         if one.count < LEAST
-    ]  # fmt: skip
+    ]
     if not measured.sides:
         problems.append(Problem("measured", "no points", f"at least {LEAST} of one flank", "5 x 9"))
     problems = problems or recognise(grid, measured, others or {})
     if problems:
         raise DesignError(problems)
     shift = 0.0 if axial == "fit" else float(axial)
-    sides = {side: _side(grid, side, one, shift, zero) for side, one in measured.sides.items()}
+    sides = _sides(grid, measured, shift, zero)
     if axial == "fit":
         shift = _axial(sides)
-        sides = {side: _side(grid, side, one, shift, zero) for side, one in measured.sides.items()}
+        sides = _sides(grid, measured, shift, zero)
     by_points = all(one.position is not None for one in measured.sides.values())
     thickness = _thickness(sides) if by_points else measured.thickness
-    pitch = {
-        s: found for s, one in sides.items() if by_points and (found := _pitch(one, grid.pitch))
-    }
+    pitch: dict[Side, PitchDeviations] = {}
+    for side, one in sides.items() if by_points else ():
+        found = _pitch(one, grid.pitch)
+        if found is not None:
+            pitch[side] = found
     runout = _runout(grid, sides) if by_points else None
     return Comparison(grid, sides, thickness, shift, pitch, runout)
+
+
+def _sides(
+    grid: MeasuringGrid, measured: Measured, axial: float, zero: Zero
+) -> dict[Side, SideComparison]:
+    return {side: _side(grid, side, one, axial, zero) for side, one in measured.sides.items()}
 
 
 def _side(

@@ -258,25 +258,23 @@ def _descend(
     start: Array,
     how: Wish,
 ) -> tuple[Array, Array, bool]:
+    """Gauss-Newton along the kept directions from steps (names,) that can be cut."""
     total = start.copy()
     left = problem.taken_out @ problem.at(dict(zip(names, total, strict=True)))
     kept = found.kept(left, how.rank)
     for _ in range(ROUNDS):
-        step = found.step(left, kept)
-        change = np.sqrt(np.mean((found.left.T @ left)[kept] ** 2)) if kept.any() else 0.0
-        if change * np.sqrt(kept.sum() / len(left)) < CONVERGED:
+        if np.sqrt(((found.left.T @ left)[kept] ** 2).sum() / len(left)) < CONVERGED:
             return total, kept, True
-        after = None
-        for _ in range(4):  # shorter where the flank cannot be cut
+        step = found.step(left, kept)
+        for shorter in (1.0, 0.5, 0.25, 0.125):  # where the flank cannot be cut
             tried = total.copy()
-            tried[free] += step
+            tried[free] += shorter * step
             after = _tried(problem, names, tried)
             if after is not None:
+                total, left = tried, problem.taken_out @ after
                 break
-            step = 0.5 * step
-        if after is None:
+        else:
             return total, kept, False
-        total, left = tried, problem.taken_out @ after
     return total, kept, False
 
 

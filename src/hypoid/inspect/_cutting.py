@@ -126,13 +126,13 @@ def _along(cut: Cutting, s: Batch, turn: Batch, *line: Batch) -> tuple[Batch, ..
     flat = jnp.abs(n[2]) < 0.9
     aside = (jnp.where(flat, -n[1], 0.0), jnp.where(flat, n[0], -n[2]), jnp.where(flat, 0.0, n[1]))
     size = jnp.sqrt(dot(aside, aside))
-    a = tuple(v / size for v in aside)
+    a: Vector = (aside[0] / size, aside[1] / size, aside[2] / size)
     b = (n[1] * a[2] - n[2] * a[1], n[2] * a[0] - n[0] * a[2], n[0] * a[1] - n[1] * a[0])
     surface = cut.surface
 
     def miss(u: Batch, v: Batch) -> tuple[Batch, ...]:
         r, _ = position_and_normal(surface, cut.piece, u, v)
-        off = tuple(x - y for x, y in zip(r, p, strict=True))
+        off: Vector = (r[0] - p[0], r[1] - p[1], r[2] - p[2])
         return dot(off, a), dot(off, b), dot(off, n)
 
     (s, turn), (f, g, d), _ = newton_pair(miss, (s, turn), LIMIT, STEPS)

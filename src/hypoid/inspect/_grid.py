@@ -192,7 +192,9 @@ def measuring_grid(
     free = borders or Borders()
     _check(rows, columns, free)
     shift = {"concave": 0.0, "convex": member.tooth.convex_turn}
-    flanks = {side: _nodes(member.flank(side), rows, columns, free, shift[side]) for side in SIDES}
+    flanks: dict[Side, FlankNodes] = {
+        side: _nodes(member.flank(side), rows, columns, free, shift[side]) for side in SIDES
+    }
     return MeasuringGrid(member, rows, columns, free, flanks)
 
 

@@ -20,6 +20,7 @@ from ._correct import added
 from ._grid import FlankNodes, MeasuringGrid
 from ._measured import Measured
 from ._response import Response
+from ._robust import robust
 from ._setup import Setup, chosen
 from ._solve import NullDirection, directions, null_directions, without
 
@@ -89,7 +90,7 @@ def identify(
                 )
             ]
         )
-    converged, covariance = False, np.diag(spread**2)
+    converged, swept, covariance = False, False, np.diag(spread**2)
     for _ in range(ROUNDS):
         jacobian = state.taken_out @ state.response.sensitivity(names)[state.there]
         scaled = jacobian * spread / noise
@@ -99,9 +100,14 @@ def identify(
         step = spread * np.linalg.solve(normal, scaled.T @ (state.left / noise) - at / spread)
         near = np.abs(step) < DONE * np.sqrt(np.diag(covariance))
         if near.all():
-            converged = True
-            break
+            if swept or not _outliers_out(state, places):
+                converged = True
+                break
+            swept = True
+            state = _State.of(grid, setup, places, names, at) or state
+            continue
         here = state.cost(noise) + float(((at / spread) ** 2).sum())
+        tried = None
         for _ in range(SHORTER):
             tried = _State.of(grid, setup, places, names, at + step)
             if tried is not None:
@@ -117,7 +123,7 @@ def identify(
     )
     steps = {n: float(s) for n, s in zip(names, at, strict=True)}
     errors = np.sqrt(np.diag(covariance))
-    flanks = {side: state.nodes[side].flank for side in setup.sides}
+    flanks: dict[Side, Flank] = {side: state.nodes[side].flank for side in setup.sides}
     return Identification(
         setup,
         steps,
@@ -128,6 +134,18 @@ def identify(
         null_directions(found, setup, len(state.there)),
         converged,
     )
+
+
+def _outliers_out(state: _State, places: dict[Side, Array]) -> bool:
+    """Take points out that lie far off the flanks that fit all; whether there were any."""
+    _, out = robust(np.zeros((len(state.left), 1)), state.left)
+    wrong = state.there[out]
+    start = 0
+    for side, nodes in state.nodes.items():
+        mine = wrong[(wrong >= start) & (wrong < start + nodes.lever.size)] - start
+        places[side][mine] = np.nan
+        start += nodes.lever.size
+    return bool(out.any())
 
 
 def _places(grid: MeasuringGrid, setup: Setup, measured: Measured) -> dict[Side, Array]:
@@ -150,7 +168,7 @@ def _places(grid: MeasuringGrid, setup: Setup, measured: Measured) -> dict[Side,
                 )
             )
             continue
-        found[side] = grid.flanks[side].taken_back(one.position[0])
+        found[side] = grid.flanks[side].taken_back(one.position[0]).copy()
     if problems:
         raise DesignError(problems)
     return found
@@ -216,7 +234,10 @@ class _State:
         every = np.full(sum(size), np.nan)
         every[self.there] = self.left
         parts = np.split(every, np.cumsum(size)[:-1])
-        return {s: p.reshape(n.shape) for (s, n), p in zip(self.nodes.items(), parts, strict=True)}
+        made: dict[Side, Array] = {}
+        for (side, nodes), part in zip(self.nodes.items(), parts, strict=True):
+            made[side] = part.reshape(nodes.shape)
+        return made
 
 
 def _grouped(nodes: FlankNodes) -> Array:

@@ -44,7 +44,9 @@ def simulated_loop(
     levels, largest = [rms(cut.values())], float(max(np.nanmax(np.abs(v)) for v in cut.values()))
     made: list[Correction] = []
     for _ in range(corrections):
-        measured = {s: v + random.normal(0.0, wish.noise, v.shape) for s, v in cut.items()}
+        measured: dict[Side, Array] = {
+            s: v + random.normal(0.0, wish.noise, v.shape) for s, v in cut.items()
+        }
         found = correction(response, measured, replace(wish, on_machine=steps))
         made.append(found)
         steps = dict(found.total)

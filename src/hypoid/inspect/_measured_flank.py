@@ -77,7 +77,9 @@ def pair_as_measured(
     pair: GearPair, grid: MeasuringGrid, deviations: Mapping[Side, Array]
 ) -> tuple[GearPair, dict[Side, MeasuredFlank]]:
     """The pair with a member's flanks as deviations (rows, columns), mm, have them; nominal where none are."""
-    made = {side: measured_flank(grid.flanks[side], value) for side, value in deviations.items()}
+    made: dict[Side, MeasuredFlank] = {
+        side: measured_flank(grid.flanks[side], value) for side, value in deviations.items()
+    }
     name = grid.member.name
     flanks: dict[str, Any] = {side: one.flank for side, one in made.items()}
     return replace(pair, **{name: replace(getattr(pair, name), **flanks)}), made

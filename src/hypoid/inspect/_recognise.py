@@ -57,7 +57,7 @@ def recognise(
                         f"measured: {side}", "reversed normals", words, 'normals = "into-tooth"'
                     )
                 )
-    return found  # fmt: skip
+    return found
 
 
 def misfit(nodes: FlankNodes, points: Array) -> float:
@@ -85,8 +85,13 @@ def _problem(
     )
     given = f"points {here:.3g} mm rms off the {nodes.flank.name} flank, however the part is turned"
     if least < BETTER * here:
-        return Problem(f"measured: {nodes.side}", f"{given}; {words}", f"points of the {nodes.flank.name} flank, "
-                       "rows root to tip, columns toe to heel, in mm, z along the axis", "see --nominal")  # fmt: skip
+        return Problem(
+            f"measured: {nodes.side}",
+            f"{given}; {words}",
+            f"points of the {nodes.flank.name} flank, "
+            "rows root to tip, columns toe to heel, in mm, z along the axis",
+            "see --nominal",
+        )
     expected = "points of this design's grid (same rows, columns and borders)"
     return Problem(
         f"measured: {nodes.side}", given, expected, "hypoid inspect FILE --nominal OUT.csv"
@@ -148,4 +153,11 @@ def _sizes(side: Side, deviation: Any) -> list[Problem]:
     if not value.size or np.median(value) < LARGE:
         return []
     given = f"deviations of {np.median(value):.3g} mm in the middle"
-    return [Problem(f"measured: {side}", given, "deviations below 1 mm: these look like micrometres", 'deviation = "um"')]  # fmt: skip
+    return [
+        Problem(
+            f"measured: {side}",
+            given,
+            "deviations below 1 mm: these look like micrometres",
+            'deviation = "um"',
+        )
+    ]

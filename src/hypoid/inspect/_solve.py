@@ -26,10 +26,14 @@ NOTHING = 1e-9  # mm, singular values of exact null directions
 SHOWN = 0.05  # share of the largest part below which an adjustment is not named
 # Why some directions are empty (notes on lin1996, inspection).
 REASONS: dict[frozenset[str], str] = {
-    frozenset({"sliding_base", "point_radius"}): "the cutter moved along its axis and as much wider cuts the same straight flank",
+    frozenset(
+        {"sliding_base", "point_radius"}
+    ): "a straight blade moved along its axis and as much wider cuts the same flank",
     frozenset({"cradle_angle"}): "turning the cradle turns the part: index",
-    frozenset({"blank_offset", "machine_center_to_back", "machine_root_angle"}): "a nearly rigid motion of the work",
-}  # fmt: skip
+    frozenset(
+        {"blank_offset", "machine_center_to_back", "machine_root_angle"}
+    ): "a nearly rigid motion of the work",
+}
 
 
 @dataclass(frozen=True)
@@ -114,7 +118,7 @@ def _sparse(rows: Array) -> Array:
     rows = rows.copy()
     for k in range(len(rows)):
         free = np.abs(rows[k:])
-        i, j = np.unravel_index(int(free.argmax()), free.shape)
+        i, j = divmod(int(free.argmax()), free.shape[1])
         rows[[k, k + i]] = rows[[k + i, k]]
         rows[k] /= rows[k, j]
         for other in range(len(rows)):

@@ -42,7 +42,7 @@ CHOICES: dict[str, tuple[str, ...]] = {
     "normals": ("out-of-tooth", "into-tooth"),
     "deviation_sign": ("material", "lack"),
     "decimal": (".", ","),
-}  # fmt: skip
+}
 
 
 @dataclass(frozen=True)
@@ -111,12 +111,21 @@ def read_layout(name: str) -> Layout:
     try:
         given = tomllib.loads(path.read_text(encoding="utf-8"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise DesignError([Problem(str(path), f"a file that is no TOML ({error})", "a layout", 'columns = ["x", "y", "z"]')]) from None  # fmt: skip
+        raise DesignError(
+            [
+                Problem(
+                    str(path),
+                    f"a file that is no TOML ({error})",
+                    "a layout",
+                    'columns = ["x", "y", "z"]',
+                )
+            ]
+        ) from None
     found = _faults(given, path)
     if found:
         raise DesignError(found)
-    given["columns"] = tuple(given["columns"])
-    return Layout(**{"name": path.stem, **given})
+    keys: dict[str, Any] = {"name": path.stem, **given, "columns": tuple(given["columns"])}
+    return Layout(**keys)
 
 
 def _faults(given: dict[str, Any], path: Path) -> list[Problem]:
@@ -129,7 +138,14 @@ def _faults(given: dict[str, Any], path: Path) -> list[Problem]:
                 Problem(where, repr(value), f"one of {', '.join(known)}", 'delimiter = ","')
             )
         elif key in CHOICES and value not in CHOICES[key]:
-            found.append(Problem(where, repr(value), f"one of {', '.join(CHOICES[key])}", f'{key} = "{CHOICES[key][0]}"'))  # fmt: skip
+            found.append(
+                Problem(
+                    where,
+                    repr(value),
+                    f"one of {', '.join(CHOICES[key])}",
+                    f'{key} = "{CHOICES[key][0]}"',
+                )
+            )
         elif key in ("first", "digits") and not (isinstance(value, int) and 0 <= value <= 15):
             found.append(Problem(where, repr(value), "a whole number from 0 to 15", f"{key} = 1"))
     columns = given.get("columns", ())
@@ -151,5 +167,12 @@ def _faults(given: dict[str, Any], path: Path) -> list[Problem]:
         )
     sides = given.get("sides", {})
     if sides and (not isinstance(sides, dict) or set(sides) != {"concave", "convex"}):
-        found.append(Problem(f"{path.name}: sides", repr(sides), "a word for concave and one for convex", 'sides = {concave = "L", convex = "R"}'))  # fmt: skip
+        found.append(
+            Problem(
+                f"{path.name}: sides",
+                repr(sides),
+                "a word for concave and one for convex",
+                'sides = {concave = "L", convex = "R"}',
+            )
+        )
     return found

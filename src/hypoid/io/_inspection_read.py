@@ -100,7 +100,7 @@ def _from_lines(
 
 def _blocks(facts: Mapping[str, str], grid: MeasuringGrid) -> list[tuple[int, Side]]:
     """Teeth and flanks in the order of a file that does not number them: as it says, or every one."""
-    sides = [s for s in SIDES if s in facts.get("flanks", ", ".join(SIDES))]
+    sides: list[Side] = [s for s in SIDES if s in facts.get("flanks", ", ".join(SIDES))]
     numbers = [int(n) for n in re.findall(r"\d+", facts.get("measured_teeth", ""))]
     return [(t, s) for t in numbers or range(1, grid.member.teeth + 1) for s in sides]
 
@@ -288,7 +288,16 @@ def _from_json(given: Any, grid: MeasuringGrid, path: str) -> Measured:
     size = grid.rows * grid.columns
     problems: list[Problem] = []
     if not isinstance(given, dict) or not isinstance(given.get("flanks"), dict):
-        raise DesignError([Problem(path, "no flanks", "JSON as --nominal OUT.json writes it", '{"flanks": {"concave": {...}}}')])  # fmt: skip
+        raise DesignError(
+            [
+                Problem(
+                    path,
+                    "no flanks",
+                    "JSON as --nominal OUT.json writes it",
+                    '{"flanks": {"concave": {...}}}',
+                )
+            ]
+        )
     problems += _facts_faults({k: str(v) for k, v in given.items()}, grid, path)
     sides: dict[Side, MeasuredSide] = {}
     for side, one in given["flanks"].items():

@@ -1,4 +1,4 @@
-"""Nominal grids and measurements as text in any layout, and as JSON: everything that a reader must know is written in."""
+"""Nominal grids and measurements as text in any layout, and as JSON, with all that a reader must know."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ def facts(grid: MeasuringGrid, layout: Layout) -> dict[str, Any]:
     """What a reader must know of a file, by key."""
     blank, free = grid.member.blank, grid.borders
     row, column = grid.reference
+    positive = "stands out" if layout.deviation_sign == "material" else "lacks"
     nodes = grid.flanks["concave"]
     return {
         "format": FORMAT,
@@ -32,15 +33,16 @@ def facts(grid: MeasuringGrid, layout: Layout) -> dict[str, Any]:
         "rows": f"{grid.rows}, {layout.rows}",
         "columns": f"{grid.columns}, {layout.columns_order}",
         "lines": "row after row" if layout.sequence == "rows" else "column after column",
-        "borders": f"toe {free.toe:g} %, heel {free.heel:g} % of the face; root {free.root:g} %, tip {free.tip:g} % of the depth",
+        "borders": f"toe {free.toe:g} %, heel {free.heel:g} % of the face; "
+        f"root {free.root:g} %, tip {free.tip:g} % of the depth",
         "reference_point": nodes.name(row, column),
         "axis": f"{layout.axis}, apex to heel; origin at the crossing point",
         "length": layout.length,
         "normals": layout.normals,
-        "deviation": f"{layout.deviation_unit}, positive where material {'stands out' if layout.deviation_sign == 'material' else 'lacks'}",
+        "deviation": f"{layout.deviation_unit}, positive where material {positive}",
         "tooth_thickness_mm": f"{grid.thickness:.6f}",
         "pitch_deg": f"{np.degrees(grid.pitch):.9f}",
-    }  # fmt: skip
+    }
 
 
 def inspection_text(grid: MeasuringGrid, layout: Layout, measured: Measured | None = None) -> str:
@@ -76,10 +78,12 @@ def _lines(grid: MeasuringGrid, layout: Layout, measured: Measured | None) -> It
                 "tooth": str(tooth),
                 "side": layout.sides[side],
                 "row": str(_number(row, grid.rows, layout.rows == "tip-to-root", layout)),
-                "column": str(_number(column, grid.columns, layout.columns_order == "heel-to-toe", layout)),
+                "column": str(
+                    _number(column, grid.columns, layout.columns_order == "heel-to-toe", layout)
+                ),
                 "point": nodes.name(row, column),
                 "-": "0",
-            }  # fmt: skip
+            }
             p = _to_file(position[t, k], places, sign) * unit
             n = _to_file(normal[t, k], places, sign) * out
             cells |= {a: _shown(v, layout.digits, layout) for a, v in zip("xyz", p, strict=True)}

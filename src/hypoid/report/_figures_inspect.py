@@ -22,7 +22,7 @@ ROUND = (1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0, 10.0)
 def topography_figure(found: Comparison) -> Figure:
     """Mean deviations of a member's measured flanks, on one scale; outliers crossed."""
     drawn = figure(3.6)
-    sides = [s for s in SIDES if s in found.sides]
+    sides: list[Side] = [s for s in SIDES if s in found.sides]
     axes = drawn.subplots(1, 2)
     scale = _scale([found.sides[s].mean for s in sides])
     for ax, side in zip(axes, SIDES, strict=True):
@@ -30,7 +30,7 @@ def topography_figure(found: Comparison) -> Figure:
             ax.axis("off")
             continue
         one = found.sides[side]
-        out = one.outlier.any(axis=0).reshape(one.nodes.shape)
+        out = np.asarray(one.outlier.any(axis=0)).reshape(one.nodes.shape)
         _bars(ax, one.nodes, one.mean, scale, mirrored=side == "convex", marked=out)
         ax.set_title(f"{found.grid.member.name} {side}: {_words(one.mean)}")
     _legend(drawn, scale)
@@ -168,7 +168,7 @@ def _bars(
 
 def _legend(drawn: Figure, scale: float) -> None:
     drawn.supxlabel(
-        f"Bars: {TALLEST:.0%} of the space between rows is {scale * 1e3:.3g} um; numbers in um; orange up: material stands out, "
-        "blue down: it lacks; ring: reference point; cross: outlier.",
+        f"Bars: {TALLEST:.0%} of the space between rows is {scale * 1e3:.3g} um; numbers in um. "
+        "Orange, up: material stands out; blue, down: it lacks; ring: reference; cross: outlier.",
         fontsize=8,
     )
