@@ -6,13 +6,22 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from inspection import EVERY
 from hypothesis import given
 from hypothesis import strategies as st
+from inspection import EVERY, bench_of, example
 
 from hypoid.flank import SIDES, flank_angles
 from hypoid.geometry import DesignError
-from hypoid.inspect import Borders, Measured, MeasuredSide, compare, measured_points, measuring_grid, topography
+from hypoid.inspect import (
+    Borders,
+    Measured,
+    MeasuredSide,
+    compare,
+    form,
+    measured_points,
+    measuring_grid,
+    topography,
+)
 
 LIN = ("lin-tsay-fong-1996", "pinion")
 
@@ -107,7 +116,9 @@ def test_outliers_are_marked_and_left_out(bench):
     found = compare(grid, measured_points(grid, put, (1, 2, 3)))
     assert [np.argwhere(found.sides[s].outlier).tolist() for s in SIDES] == [[[1, 7]], [[2, 30]]]
     assert found.sides["concave"].outliers[0].startswith("tooth 2, H1 (+")
-    assert found.sides["concave"].mean.ravel()[7] == pytest.approx(put["concave"][[0, 2], 7].mean(), abs=0.003)
+    assert found.sides["concave"].mean.ravel()[7] == pytest.approx(
+        put["concave"][[0, 2], 7].mean(), abs=0.003
+    )
 
 
 def test_plain_noise_has_no_outliers(bench):
@@ -138,22 +149,25 @@ def test_angles_are_the_flanks_own(bench, name, member):
         for side, value in response.cut(steps).items():
             nodes = one.grid.flanks[side]
             at = [float(v[nodes.reference]) for v in (nodes.distance, nodes.height)]
-            before, after = flank_angles(nodes.flank, *at), flank_angles(response.setup.recut(side, steps), *at)
+            before, after = (
+                flank_angles(nodes.flank, *at),
+                flank_angles(response.setup.recut(side, steps), *at),
+            )
             parts = topography(nodes, value)
             turned = max(abs(after.pressure - before.pressure), abs(after.spiral - before.spiral))
-            assert parts.pressure_angle == pytest.approx(after.pressure - before.pressure, abs=0.08 * turned)
-            assert parts.spiral_angle == pytest.approx(after.spiral - before.spiral, abs=0.08 * turned)
+            assert parts.pressure_angle == pytest.approx(
+                after.pressure - before.pressure, abs=0.08 * turned
+            )
+            assert parts.spiral_angle == pytest.approx(
+                after.spiral - before.spiral, abs=0.08 * turned
+            )
 
 
 @given(
     profile=st.floats(-0.02, 0.02), lengthwise=st.floats(-0.02, 0.02), bias=st.floats(-0.02, 0.02)
 )
 def test_a_form_comes_back(profile, lengthwise, bias):
-    from inspection import example
-
-    from hypoid.inspect import form
-
-    nodes = measuring_grid(example(LIN[0])[1].pinion).flanks["concave"]
+    nodes = bench_of(*LIN).grid.flanks["concave"]
     put = form(nodes, profile_crowning=profile, lengthwise_crowning=lengthwise, bias=bias)
     found = topography(nodes, put)
     assert found.profile_crowning == pytest.approx(profile, abs=1e-9)
@@ -197,7 +211,9 @@ def test_the_other_side_and_the_other_member_are_named(bench, name):
 def test_reversed_normals_and_micrometres_are_named(bench):
     grid = bench(*LIN).grid
     good = measured_points(grid, zeros(grid))
-    normals = {s: replace(one, normal=-grid.flanks[s].normal[None]) for s, one in good.sides.items()}
+    normals = {
+        s: replace(one, normal=-grid.flanks[s].normal[None]) for s, one in good.sides.items()
+    }
     with pytest.raises(DesignError, match="reversed normals"):
         compare(grid, Measured("pinion", normals))
     right = {s: replace(one, normal=grid.flanks[s].normal[None]) for s, one in good.sides.items()}
@@ -208,8 +224,6 @@ def test_reversed_normals_and_micrometres_are_named(bench):
 
 
 def test_too_few_points_and_impossible_grids():
-    from inspection import example
-
     member = example(LIN[0])[1].pinion
     grid = measuring_grid(member)
     few = np.full(45, np.nan)
@@ -224,8 +238,6 @@ def test_too_few_points_and_impossible_grids():
 
 
 def test_a_grid_into_the_fillet_says_so():
-    from inspection import example
-
     grid = measuring_grid(example(LIN[0])[1].pinion, 5, 9, Borders(root=5.0))
     assert any("fillet" in words for words in grid.faults)
 
@@ -238,6 +250,8 @@ def test_45_by_45_points_and_normals_are_the_flanks(bench):
     assert nodes.name(44, 44) == "AS45"
     again = nodes.flank.at_cone(nodes.distance, nodes.height)
     assert np.abs(again.position - nodes.position).max() < 1e-12
-    a, b = (measuring_grid(pair.pinion).flanks[s].position[22] for s in SIDES)  # one tooth's two flanks
+    a, b = (
+        measuring_grid(pair.pinion).flanks[s].position[22] for s in SIDES
+    )  # one tooth's two flanks
     arc = np.angle((b[0] + 1j * b[1]) / (a[0] + 1j * a[1])) * np.hypot(*a[:2])
     assert abs(arc) == pytest.approx(grid.thickness, abs=0.4)

@@ -7,8 +7,8 @@ from math import tan
 import mpmath
 import numpy as np
 import pytest
-from inspection import EVERY, NAMES
 from independent import carried
+from inspection import EVERY, NAMES
 
 from hypoid.inspect import Response
 
@@ -57,13 +57,21 @@ def test_basic_settings_agree_with_the_chain_in_forty_digits(bench, setting, for
     piece = flank.pieces["flank"]
     for k in (0, 8, 22, 36, 44):
         s = float(nodes.points.s[k])
-        edge = [p + s * t for p, t in zip(piece.start, piece.tangent, strict=True)]  # a straight edge
+        edge = [
+            p + s * t for p, t in zip(piece.start, piece.tangent, strict=True)
+        ]  # a straight edge
         theta, phi = float(group.theta[k]), float(group.phi[k])
         value = mpmath.mpf(getattr(flank.settings, setting))
 
         def along(p, k=k, edge=edge, theta=theta, phi=phi):
             moved = replace(flank.settings, **{setting: p})
-            r = carried(moved, [mpmath.mpf(float(e)) for e in edge], mpmath.mpf(theta), mpmath.mpf(phi), mpmath)
+            r = carried(
+                moved,
+                [mpmath.mpf(float(e)) for e in edge],
+                mpmath.mpf(theta),
+                mpmath.mpf(phi),
+                mpmath,
+            )
             return sum(mpmath.mpf(float(n)) * x for n, x in zip(nodes.own[1][k], r, strict=True))
 
         exact = float(mpmath.diff(along, value))

@@ -20,9 +20,10 @@ from ._correct import added
 from ._grid import FlankNodes, MeasuringGrid
 from ._measured import Measured
 from ._response import Response
-from ._robust import robust
+from ._robust import robust, smooth_terms
 from ._setup import Setup, chosen
 from ._solve import NullDirection, directions, null_directions, without
+from ._topography import coordinates
 
 Array = np.ndarray[Any, Any]
 ROUGH = 15.0  # times an adjustment's reach: standard deviation of a guess (3 mm, 2.25 deg)
@@ -90,6 +91,10 @@ def identify(
                 )
             ]
         )
+    if _outliers_out(
+        state, places, smooth=True
+    ):  # off a smooth map, before a bad guess can hide them
+        state = _State.of(grid, setup, places, names, at) or state
     converged, swept, covariance = False, False, np.diag(spread**2)
     for _ in range(ROUNDS):
         jacobian = state.taken_out @ state.response.sensitivity(names)[state.there]
@@ -100,7 +105,7 @@ def identify(
         step = spread * np.linalg.solve(normal, scaled.T @ (state.left / noise) - at / spread)
         near = np.abs(step) < DONE * np.sqrt(np.diag(covariance))
         if near.all():
-            if swept or not _outliers_out(state, places):
+            if swept or not _outliers_out(state, places, smooth=False):
                 converged = True
                 break
             swept = True
@@ -136,16 +141,23 @@ def identify(
     )
 
 
-def _outliers_out(state: _State, places: dict[Side, Array]) -> bool:
-    """Take points out that lie far off the flanks that fit all; whether there were any."""
-    _, out = robust(np.zeros((len(state.left), 1)), state.left)
-    wrong = state.there[out]
-    start = 0
+def _outliers_out(state: _State, places: dict[Side, Array], smooth: bool) -> bool:
+    """Take points out that lie far off the flanks, or off a smooth map over them; whether there were any."""
+    start, any_out = 0, False
+    every = np.full(sum(n.lever.size for n in state.nodes.values()), np.nan)
+    every[state.there] = state.left
     for side, nodes in state.nodes.items():
-        mine = wrong[(wrong >= start) & (wrong < start + nodes.lever.size)] - start
-        places[side][mine] = np.nan
+        value = every[start : start + nodes.lever.size]
         start += nodes.lever.size
-    return bool(out.any())
+        columns = (nodes.lever / nodes.radius)[:, None]
+        if smooth:
+            x, y = (c.ravel() for c in coordinates(nodes))
+            count = int(np.isfinite(value).sum())
+            columns = np.column_stack([columns, smooth_terms(x, y, count)])
+        _, out = robust(np.where(np.isfinite(value)[:, None], columns, 0.0), value)
+        places[side][out] = np.nan
+        any_out |= bool(out.any())
+    return any_out
 
 
 def _places(grid: MeasuringGrid, setup: Setup, measured: Measured) -> dict[Side, Array]:

@@ -23,6 +23,7 @@ ASKED = (
     2.0**0.5
 )  # times the noise: what must be asked along it (Mallows: less costs more than it gains)
 NOTHING = 1e-9  # mm, singular values of exact null directions
+EXACT = 1e-6  # mm, singular values of directions that do nothing at all, as far as it matters
 SHOWN = 0.05  # share of the largest part below which an adjustment is not named
 # Why some directions are empty (notes on lin1996, inspection).
 REASONS: dict[frozenset[str], str] = {
@@ -95,11 +96,12 @@ def without(columns: Array) -> Array:
 
 def null_directions(found: Directions, setup: Setup, points: int) -> tuple[NullDirection, ...]:
     """What cannot be decided, in words; each as few adjustments as there are."""
-    weak = found.right[:, found.decidable :]
-    if not weak.shape[1] or not points:
+    if not points:
         return ()
+    first = found.decidable
+    exact = max(first, int((found.values > EXACT).sum()))
     made: list[NullDirection] = []
-    for row in _sparse(weak.T):
+    for row in (*_sparse(found.right[:, exact:].T), *_sparse(found.right[:, first:exact].T)):
         row = row / np.abs(row).max()
         effect = found.values * (found.right.T @ row)
         rms = float(np.sqrt((effect**2).sum() / points))
