@@ -24,7 +24,7 @@ from ._solve import Directions, NullDirection, directions, null_directions, with
 Array = np.ndarray[Any, Any]
 ROUNDS = 12
 TINY = 1e-12  # mm, rad: what rounding leaves of no step
-CONVERGED = 1e-8  # mm rms that a further step would change
+CONVERGED = 1e-6  # mm rms that a further step would change
 
 
 @dataclass(frozen=True)

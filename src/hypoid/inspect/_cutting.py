@@ -17,7 +17,7 @@ import numpy as np
 
 from hypoid.cutter import EdgePiece
 from hypoid.flank import Surface, newton_pair, position_and_normal
-from hypoid.geometry import Batch, Batched, Rows, Scalar, Vector, dot, sine_cosine, turn_z
+from hypoid.geometry import Batch, Batched, Rows, Scalar, Vector, compiled, dot, sine_cosine, turn_z
 from hypoid.machine import (
     Cam,
     Generator,
@@ -33,8 +33,9 @@ from hypoid.machine import (
 
 Array = np.ndarray[Any, Any]
 ORDERS = 6  # coefficients of every motion
-STEPS = 5  # of Newton, from a flank that is near
+STEPS = 4  # of Newton, from a flank that is near
 LIMIT = (0.5, 0.02)  # mm, rad: its greatest step
+FEW = 64  # points that go through at once
 LEFT = 1e-8  # mm, what it may leave
 NUMBERS = tuple(
     f.name
@@ -85,7 +86,7 @@ def cutting(settings: MachineSettings, piece: EdgePiece, surface: Surface, way: 
 
     cam = settings.cam
     if cam is not None:  # never the seated cam's closed form: the seat may be what changes
-        cam = Cam(*(jnp.asarray(getattr(cam, f.name)) for f in fields(cam)))
+        cam = Cam(*(np.asarray(float(getattr(cam, f.name))) for f in fields(cam)))
     return Cutting(
         numbers={name: float(getattr(settings, name)) for name in NUMBERS},
         modified_roll=row(settings.modified_roll, ORDERS - 1),
@@ -142,6 +143,7 @@ def _along(cut: Cutting, s: Batch, turn: Batch, *line: Batch) -> tuple[Batch, ..
 _angles_of = Batched(_angles, parameters=1, block=256)
 _moved_by = Batched(_moved, parameters=2, block=256)
 _on_lines = Batched(_along, parameters=1, block=256)
+_on_few_lines = compiled(_along)  # a whole batch's arrays take longer than its few points
 
 
 def angles_of(cut: Cutting, s: Array, turn: Array) -> Rows:
@@ -161,7 +163,12 @@ def on_lines(cut: Cutting, s: Array, turn: Array, point: Array, normal: Array) -
 
     Newton from (s, turn) of a flank near by; NaN where it does not arrive.
     """
-    distance, _, _, left = _on_lines(cut, s, turn, *point.T, *normal.T)
+    arrays = (s, turn, *point.T, *normal.T)
+    if len(s) > FEW:
+        distance, _, _, left = _on_lines(cut, *arrays)
+    else:
+        filled = (np.concatenate([a, np.full(FEW - len(a), a[-1])]) for a in arrays)
+        distance, _, _, left = (np.asarray(v)[: len(s)] for v in _on_few_lines(cut, *filled))
     return np.where(left < LEFT, distance, np.nan)
 
 
