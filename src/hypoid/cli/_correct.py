@@ -391,11 +391,13 @@ def _show(corrections: list[Correction], found: Comparison) -> None:
             say("Not converged: take it as a first step, cut, and measure again.")
         for null in c.null:
             say(f"Undecided: {null.words}.")
-        if found.thickness is not None and len(c.setup.sides) == 1:
-            turn = degrees(found.thickness / found.sides[c.setup.sides[0]].nodes.radius) * 60.0
-            say(
-                f"Tooth thickness {found.thickness * UM:+.1f} um: the index's affair, {turn:+.2f} min of the work."
-            )
+    alone = [s for c in corrections if len(c.setup.sides) == 1 for s in c.setup.sides]
+    if found.thickness is not None and len(alone) == 2:
+        turn = degrees(abs(found.thickness) / found.sides[alone[0]].nodes.radius) * 60.0
+        say(
+            f"Tooth thickness {found.thickness * UM:+.1f} um: the index's affair, a turn of the work by "
+            f"{turn:.2f} min between both cuts."
+        )
 
 
 def _contact_table(states: Mapping[str, Mapping[Any, ContactState]]) -> dict[str, Any]:

@@ -249,12 +249,14 @@ def _facts_faults(facts: Mapping[str, str], grid: MeasuringGrid, path: str) -> l
         "rows": str(grid.rows),
         "columns": str(grid.columns),
     }
+    design = "the design file of what was measured"
+    options = ("member", "rows", "columns")
     return [
         Problem(
             f"{path}: {key}",
             facts[key],
             f"{value}, as asked for",
-            f"--{key} {facts[key].split(',')[0]}",
+            f"--{key} {facts[key].split(',')[0]}" if key in options else design,
         )
         for key, value in expected.items()
         if key in facts and facts[key].split(",")[0].strip() != value
