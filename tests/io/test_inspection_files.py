@@ -61,8 +61,10 @@ def test_every_file_says_what_it_is(name):
         if line.startswith("#")
     ]
     told = "\n".join(head)
-    for words in ("member: pinion", "hand: right", "teeth: 27", "rows: 5", "columns: 9", "axis:", "length: mm",
-                  "normals:", "reference_point: E3", "tooth_thickness_mm: 6.657452", "pitch_deg: 13.333333333"):  # fmt: skip
+    size = "member: pinion", "hand: right", "teeth: 27", "rows: 5", "columns: 9"
+    signs = "axis:", "length: mm", "normals:", "deviation: um"
+    more = "reference_point: E3", "tooth_thickness_mm: 6.657452", "pitch_deg: 13.333333333"
+    for words in (*size, *signs, *more):
         assert words in told
 
 

@@ -391,7 +391,7 @@ def _show(corrections: list[Correction], found: Comparison) -> None:
             say("Not converged: take it as a first step, cut, and measure again.")
         for null in c.null:
             say(f"Undecided: {null.words}.")
-    alone = [s for c in corrections if len(c.setup.sides) == 1 for s in c.setup.sides]
+    alone: list[Side] = [s for c in corrections if len(c.setup.sides) == 1 for s in c.setup.sides]
     if found.thickness is not None and len(alone) == 2:
         turn = degrees(abs(found.thickness) / found.sides[alone[0]].nodes.radius) * 60.0
         say(

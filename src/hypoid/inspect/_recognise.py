@@ -16,6 +16,9 @@ from ._measured import Measured
 
 Array = np.ndarray[Any, Any]
 FITS = 0.1  # mm rms: closer than this, nothing else is looked for
+NOWHERE = (
+    0.02  # of the face width: further off than this, and like nothing else, it is no such flank
+)
 BETTER = 0.3  # share of the misfit that another reading must come below
 AXES = {
     "": (0, 1, 2),
@@ -45,7 +48,7 @@ def recognise(
         points = one.position[0]
         here = misfit(nodes, points * nodes.flank.hand)
         if here > FITS:
-            found.append(_problem(grid, nodes, points, here, others))
+            found += _problem(grid, nodes, points, here, others)
         elif one.normal is not None:
             expected = np.broadcast_to(nodes.normal, one.normal.shape)
             same = (one.normal * _to_tooth(nodes, one.position, expected)).sum(axis=-1)
@@ -79,23 +82,24 @@ def _problem(
     points: Array,
     here: float,
     others: Mapping[str, MeasuringGrid],
-) -> Problem:
+) -> list[Problem]:
+    """What points that lie off their flank look like; nothing where they are merely badly cut."""
     words, least = min(
         _readings(grid, nodes, points, others), key=lambda r: (round(r[1], 2), len(r[0]))
     )
+    where, example = (
+        f"measured: {nodes.side}",
+        "the points of hypoid inspect FILE --nominal OUT.csv",
+    )
     given = f"points {here:.3g} mm rms off the {nodes.flank.name} flank, however the part is turned"
     if least < BETTER * here:
-        return Problem(
-            f"measured: {nodes.side}",
-            f"{given}; {words}",
-            f"points of the {nodes.flank.name} flank, "
-            "rows root to tip, columns toe to heel, in mm, z along the axis",
-            "see --nominal",
-        )
+        order = "rows root to tip, columns toe to heel, in mm, z along the axis"
+        expected = f"points of the {nodes.flank.name} flank, {order}"
+        return [Problem(where, f"{given}; {words}", expected, example)]
+    if here < NOWHERE * (nodes.flank.heel - nodes.flank.toe):
+        return []
     expected = "points of this design's grid (same rows, columns and borders)"
-    return Problem(
-        f"measured: {nodes.side}", given, expected, "hypoid inspect FILE --nominal OUT.csv"
-    )
+    return [Problem(where, given, expected, example)]
 
 
 def _readings(

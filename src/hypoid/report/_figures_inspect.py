@@ -131,13 +131,13 @@ def _bars(
         axes.text(*place, word, rotation=90, ha="center", va="center", fontsize=8)
     for i, j in ((0, 0), (0, -1), (-1, 0), (-1, -1)):
         if there[i, j]:
-            shift = (0, 5 if value[i, j] < 0.0 else -9)
+            right = (way > 0.0) == (j == -1)
             axes.annotate(
                 f"{value[i, j] * 1e3:+.1f}",
                 (x[i, j], y[i, j]),
-                xytext=shift,
+                xytext=(6 if right else -6, -3),
                 textcoords="offset points",
-                ha="center",
+                ha="left" if right else "right",
                 fontsize=7,
             )
     middle = way * float(ends.mean())
