@@ -210,6 +210,9 @@ def test_correct_tells_every_wrong_option(cut, capsys):
     assert main(["correct", FILE, "-m", cut, "--free", "nonsense"]) == 2
     assert main(["correct", FILE, "-m", cut, "--target", "camber=3 um"]) == 2
     assert main(["correct", FILE, "-m", cut, "--on-machine", cut]) == 2
+    other = ["--machine", "basic", "-o", "never.toml", "--no-contact"]
+    assert main(["correct", FILE, "-m", cut, *other]) == 2
+    assert "--machine gleason-463" in capsys.readouterr().err
 
 
 def test_identify(cut, capsys):

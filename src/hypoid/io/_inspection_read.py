@@ -15,6 +15,8 @@ from hypoid.flank import SIDES, Side
 from hypoid.geometry import DesignError, Problem
 from hypoid.inspect import Measured, MeasuredSide, MeasuringGrid
 
+from ._inspection_facts import facts_faults
+from ._inspection_json import measured_of_json
 from ._inspection_layout import LENGTHS, Layout, read_layout
 from ._inspection_write import ordered
 
@@ -50,7 +52,7 @@ def read_inspection(
     try:
         with where.open(encoding="utf-8-sig", errors="replace") as file:
             if where.suffix == ".json":
-                return _from_json(json.load(file), grid, str(where))
+                return measured_of_json(json.load(file), grid, str(where))
             return _from_lines(file, grid, layout, str(where))
     except OSError as error:
         given = f"a file that cannot be read ({error.strerror})"
@@ -92,7 +94,7 @@ def _from_lines(
         count += 1
         if len(found.problems) >= MANY:
             break
-    found.problems += _facts_faults(found.facts, grid, path)
+    found.problems += facts_faults(found.facts, grid, path)
     if found.problems:
         raise DesignError(found.problems)
     return _measured(found, grid, how or Layout("", ()))
@@ -240,29 +242,6 @@ def _place(
     return tooth, side, row * grid.columns + column
 
 
-def _facts_faults(facts: Mapping[str, str], grid: MeasuringGrid, path: str) -> list[Problem]:
-    """What the file says of itself against the grid that it is read for."""
-    expected = {
-        "member": grid.member.name,
-        "hand": grid.member.blank.hand,
-        "teeth": str(grid.member.teeth),
-        "rows": str(grid.rows),
-        "columns": str(grid.columns),
-    }
-    design = "the design file of what was measured"
-    options = ("member", "rows", "columns")
-    return [
-        Problem(
-            f"{path}: {key}",
-            facts[key],
-            f"{value}, as asked for",
-            f"--{key} {facts[key].split(',')[0]}" if key in options else design,
-        )
-        for key, value in expected.items()
-        if key in facts and facts[key].split(",")[0].strip() != value
-    ]
-
-
 def _measured(found: _Collected, grid: MeasuringGrid, layout: Layout) -> Measured:
     places, sign = layout.turn
     turn = np.array([1.0, sign, sign])
@@ -284,54 +263,3 @@ def _measured(found: _Collected, grid: MeasuringGrid, layout: Layout) -> Measure
             sides[side] = MeasuredSide(teeth, deviation=values[..., 6] * dev)
     given = found.facts.get("thickness_deviation_mm")
     return Measured(grid.member.name, sides, None if given is None else float(given))
-
-
-def _from_json(given: Any, grid: MeasuringGrid, path: str) -> Measured:
-    size = grid.rows * grid.columns
-    problems: list[Problem] = []
-    if not isinstance(given, dict) or not isinstance(given.get("flanks"), dict):
-        raise DesignError(
-            [
-                Problem(
-                    path,
-                    "no flanks",
-                    "JSON as --nominal OUT.json writes it",
-                    '{"flanks": {"concave": {...}}}',
-                )
-            ]
-        )
-    problems += _facts_faults({k: str(v) for k, v in given.items()}, grid, path)
-    sides: dict[Side, MeasuredSide] = {}
-    for side, one in given["flanks"].items():
-        where = f"{path}: flanks.{side}"
-        if side not in SIDES:
-            problems.append(Problem(where, side, "concave or convex", "concave"))
-            continue
-        try:
-            teeth = tuple(int(t) for t in one.get("teeth", [1]))
-            arrays = {
-                key: np.array(one[name], dtype=float).reshape(len(teeth), size, *more)
-                for key, name, more in (
-                    ("position", "position_mm", (3,)),
-                    ("normal", "normal", (3,)),
-                    ("deviation", "deviation_um", ()),
-                )
-                if name in one
-            }
-        except (AttributeError, TypeError, ValueError) as error:
-            expected = f"position_mm or deviation_um of {size} points a tooth"
-            problems.append(
-                Problem(where, f"values that do not fit ({error})", expected, "position_mm")
-            )
-            continue
-        if "deviation" in arrays:
-            arrays = {"deviation": arrays["deviation"] * 1e-3}
-        if not arrays:
-            problems.append(
-                Problem(where, "no values", "position_mm or deviation_um", "position_mm")
-            )
-        sides[side] = MeasuredSide(teeth, **arrays)
-    if problems:
-        raise DesignError(problems)
-    thickness = given.get("thickness_deviation_mm")
-    return Measured(grid.member.name, sides, None if thickness is None else float(thickness))

@@ -10,6 +10,7 @@ from typing import Any
 import tomlkit
 
 from hypoid.flank import SIDES
+from hypoid.geometry import DesignError, Problem
 from hypoid.inspect import Correction
 from hypoid.machine import MACHINES
 
@@ -22,12 +23,16 @@ def corrected_design(path: str | Path, corrections: Sequence[Correction]) -> str
     Raises
     ------
     DesignError
-        Where the machine cannot be set so.
+        Where the machine cannot be set so, or is not the file's own.
     """
     document = tomlkit.parse(Path(path).read_text(encoding="utf-8"))
     for found in corrections:
         setup = found.setup
         member: Any = document[setup.member.name]
+        own = _machine(member, setup.sides[0])
+        if own != setup.machine:
+            expected = f"dials of {own}, on which the file has the {setup.name}"
+            raise DesignError([Problem("--output", setup.machine, expected, f"--machine {own}")])
         dials = setup.dials_after(found.total)
         moved = [n for n in found.total if found.total[n] and not n.startswith(SIDES)]
         for key in dict.fromkeys(
@@ -56,6 +61,14 @@ def _blades(member: Any, found: Correction) -> None:
         outer, inner = (after.get(n, setup.adjustments[n].value) for n in radii)
         _set(_table(member, "", "cutter"), "diameter", _quantity(outer + inner, "length"))
         _set(_table(member, "", "cutter"), "point_width", _quantity(outer - inner, "length"))
+
+
+def _machine(member: Any, side: str) -> str:
+    """The machine that a file has a flank on."""
+    for table in (member.get(side, {}).get("settings", {}), member.get("settings", {})):
+        if "machine" in table:
+            return str(table["machine"])
+    return "basic"
 
 
 def _apart(member: Any, key: str) -> bool:

@@ -1,9 +1,8 @@
-"""Nominal grids and measurements as text in any layout, and as JSON, with all that a reader must know."""
+"""Nominal grids and measurements as text in any layout, with all that a reader must know."""
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -11,38 +10,10 @@ import numpy as np
 from hypoid.flank import SIDES, Side
 from hypoid.inspect import Measured, MeasuringGrid
 
+from ._inspection_facts import facts
 from ._inspection_layout import LENGTHS, Layout
 
 Array = np.ndarray[Any, Any]
-FORMAT = "hypoid inspection 1"
-
-
-def facts(grid: MeasuringGrid, layout: Layout) -> dict[str, Any]:
-    """What a reader must know of a file, by key."""
-    blank, free = grid.member.blank, grid.borders
-    row, column = grid.reference
-    positive = "stands out" if layout.deviation_sign == "material" else "lacks"
-    nodes = grid.flanks["concave"]
-    return {
-        "format": FORMAT,
-        "layout": layout.name,
-        "member": grid.member.name,
-        "hand": blank.hand,
-        "teeth": grid.member.teeth,
-        "sides": ", ".join(f"{s} = {layout.sides[s]}" for s in SIDES),
-        "rows": f"{grid.rows}, {layout.rows}",
-        "columns": f"{grid.columns}, {layout.columns_order}",
-        "lines": "row after row" if layout.sequence == "rows" else "column after column",
-        "borders": f"toe {free.toe:g} %, heel {free.heel:g} % of the face; "
-        f"root {free.root:g} %, tip {free.tip:g} % of the depth",
-        "reference_point": nodes.name(row, column),
-        "axis": f"{layout.axis}, apex to heel; origin at the crossing point",
-        "length": layout.length,
-        "normals": layout.normals,
-        "deviation": f"{layout.deviation_unit}, positive where material {positive}",
-        "tooth_thickness_mm": f"{grid.thickness:.6f}",
-        "pitch_deg": f"{np.degrees(grid.pitch):.9f}",
-    }
 
 
 def inspection_text(grid: MeasuringGrid, layout: Layout, measured: Measured | None = None) -> str:
@@ -67,7 +38,7 @@ def _lines(grid: MeasuringGrid, layout: Layout, measured: Measured | None) -> It
     unit = 1.0 / LENGTHS[layout.length]
     out = 1.0 if layout.normals == "out-of-tooth" else -1.0
     dev = (1.0 if layout.deviation_sign == "material" else -1.0) / LENGTHS[layout.deviation_unit]
-    values = list(_values(grid, measured))
+    values = list(values_of(grid, measured))
     blocks = sorted((tooth, n, t) for n, v in enumerate(values) for t, tooth in enumerate(v[1]))
     for tooth, n, t in blocks:  # tooth after tooth, its concave flank first
         side, _, position, normal, deviation = values[n]
@@ -94,7 +65,7 @@ def _lines(grid: MeasuringGrid, layout: Layout, measured: Measured | None) -> It
             yield [cells[c] for c in layout.columns]
 
 
-def _values(
+def values_of(
     grid: MeasuringGrid, measured: Measured | None
 ) -> Iterator[tuple[Side, tuple[int, ...], Array, Array, Array]]:
     for side in SIDES:
@@ -146,27 +117,3 @@ def _shown(value: float, digits: int, layout: Layout) -> str:
     if float(text) == 0.0:
         text = text.lstrip("-")
     return text.replace(".", layout.decimal)
-
-
-def inspection_json(grid: MeasuringGrid, measured: Measured | None = None) -> str:
-    """The same as JSON: facts, and points by side and tooth; NaN is null."""
-    layout = Layout("json", ("x", "y", "z"))
-    sides: dict[str, Any] = {}
-    for side, teeth, position, normal, deviation in _values(grid, measured):
-        by_points = measured is None or measured.sides[side].position is not None
-        sides[side] = {
-            "teeth": list(teeth),
-            **({"position_mm": _plain(position), "normal": _plain(normal)} if by_points else {}),
-            **({"deviation_um": _plain(deviation * 1e3)} if not by_points else {}),
-        }
-    shape: Mapping[str, Any] = {"row_count": grid.rows, "column_count": grid.columns}
-    more = {}
-    if measured is not None and measured.thickness is not None:
-        more["thickness_deviation_mm"] = measured.thickness
-    return json.dumps({**facts(grid, layout), **shape, **more, "flanks": sides}, indent=1) + "\n"
-
-
-def _plain(values: Array) -> Any:
-    if values.ndim > 1:
-        return [_plain(v) for v in values]
-    return [float(f"{v:.10g}") if np.isfinite(v) else None for v in values]

@@ -1,0 +1,133 @@
+"""Options of `hypoid correct`: what may be moved and how far, what is wanted, and what was dialled before."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from hypoid.geometry import DesignError, Problem
+
+from ._options import quantities
+
+if TYPE_CHECKING:
+    from hypoid.inspect import Comparison, Wish
+
+
+def wish_of(
+    free: tuple[str, ...],
+    noise: str,
+    rank: int | None,
+    exact: bool,
+    bounds: tuple[str, ...],
+    increment: tuple[str, ...],
+) -> Wish:
+    from hypoid.inspect import Wish
+
+    problems: list[Problem] = []
+    if rank is not None and rank < 1:
+        problems.append(Problem("--rank", str(rank), "at least 1", "--rank 3"))
+    sigma = quantities({"--noise": (noise, "length")})["--noise"]
+    if not 0.0 < sigma < 1.0:
+        problems.append(Problem("--noise", noise, "above 0 and below 1 mm", '--noise "1.5 um"'))
+    names = tuple(n for group in free for n in group.replace(",", " ").split())
+    steps = {
+        n: _value(n, v, "--increment", problems)
+        for n, v in _pairs_of(increment, "--increment", problems)
+    }
+    ends: dict[str, tuple[float, float]] = {}
+    for name, text in _pairs_of(bounds, "--bounds", problems):
+        low, dots, high = text.partition("..")
+        if not dots:
+            problems.append(
+                Problem(
+                    "--bounds",
+                    text,
+                    "two readings with .. between",
+                    '--bounds "cradle_angle=66 deg..68 deg"',
+                )
+            )
+            continue
+        ends[name] = (
+            _value(name, low, "--bounds", problems),
+            _value(name, high, "--bounds", problems),
+        )
+    if problems:
+        raise DesignError(problems)
+    return Wish(
+        free=names, noise=sigma, rank=rank, rounded=not exact, bounds=ends, increments=steps
+    )
+
+
+def _pairs_of(
+    given: tuple[str, ...], option: str, problems: list[Problem]
+) -> list[tuple[str, str]]:
+    made: list[tuple[str, str]] = []
+    for text in given:
+        name, equals, value = text.partition("=")
+        if equals:
+            made.append((name.strip(), value.strip()))
+        else:
+            problems.append(
+                Problem(option, text, "a name and a value", f'{option} "cradle_angle=1 min"')
+            )
+    return made
+
+
+def _value(name: str, text: str, option: str, problems: list[Problem]) -> float:
+    """A quantity by what its name says: an angle, a plain number, else a length."""
+    from hypoid.io import QuantityError, parse
+
+    try:
+        if name.startswith(("ratio", "modified", "motions", "helical")):
+            return float(text)
+        return parse(text, "angle" if name.endswith("angle") else "length")
+    except QuantityError as error:
+        problems.append(
+            Problem(option, error.given, error.expected, f'{option} "{name}={error.example}"')
+        )
+    except ValueError:
+        problems.append(Problem(option, text, "a number", f'{option} "{name}=0.001"'))
+    return 0.0
+
+
+def targets_of(
+    pair: Any, found: Comparison, other: Comparison | None, target: tuple[str, ...]
+) -> Any:
+    from hypoid.inspect import form, mates_ease_off
+
+    problems: list[Problem] = []
+    known = ("profile_crowning", "lengthwise_crowning", "bias")
+    forms: dict[str, float] = {}
+    for name, text in _pairs_of(target, "--target", problems):
+        if name not in known:
+            problems.append(
+                Problem("--target", name, f"one of {', '.join(known)}", '--target "bias=3 um"')
+            )
+        else:
+            forms[name] = _value(name, text, "--target", problems)
+    if problems:
+        raise DesignError(problems)
+    made: dict[Any, Any] = {}
+    for side, one in found.sides.items():
+        made[side] = form(one.nodes, **forms)
+        mate_side = "convex" if side == "concave" else "concave"
+        if other is not None and mate_side in other.sides:
+            mate = other.sides[mate_side]
+            made[side] = made[side] + mates_ease_off(pair, one.nodes, mate.nodes, mate.mean)
+    return made
+
+
+def steps_before(path: Path | None) -> dict[str, dict[str, float]]:
+    if path is None:
+        return {}
+    try:
+        given = json.loads(path.read_text(encoding="utf-8"))
+        return {
+            name: {n: float(v) for n, v in steps.items()} for name, steps in given["total"].items()
+        }
+    except (OSError, ValueError, KeyError, AttributeError, TypeError) as error:
+        said = f"{path} ({error})"
+        raise DesignError(
+            [Problem("--on-machine", said, "a file that --save wrote", "--on-machine steps.json")]
+        ) from None
