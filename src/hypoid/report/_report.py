@@ -23,7 +23,7 @@ from ._figures_contact import (
     pattern_figure,
 )
 from ._figures_cutter import cutter_figure
-from ._figures_mill import mill_figure
+from ._figures_mill import blades_figure
 from ._figures_tooth import tooth_figure, tooth_notes, tooth_rows
 from ._page import box, drawing, note, page
 from ._progress import Progress, silent
@@ -144,8 +144,10 @@ def _cutter(pair: GearPair) -> str:
     if isinstance(pinion, FaceHobHead) and isinstance(wheel, FaceHobHead):
         words = "Face-hob head and blade profiles; flat land, edge arc, straight edge, relief."
         return drawing(to_svg(cutter_figure(pinion, wheel)), words)
-    words = "Face-mill blades in the plane of the cutter axis, tips up; orange: edge arc."
-    return drawing(to_svg(mill_figure(pair)), words)
+    words = (
+        "Blades in the plane of the cutter axis, tips up; orange: edge arc; red: Toprem, Flankrem."
+    )
+    return drawing(to_svg(blades_figure(pair)), words)
 
 
 def _findings(found: Results) -> str:
