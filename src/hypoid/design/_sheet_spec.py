@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from hypoid.blank import GivenBlank
 
-from ._spec import Assumption, Hand
+from ._spec import Assumption, BodySpec, Hand
 
 Method = Literal[
     "generated", "formate", "helixform", "modified-roll", "tilt", "duplex", "helical-duplex"
@@ -99,3 +99,4 @@ class SummarySheetSpec:
     machine_constants: Mapping[str, Mapping[str, Any]] = field(
         default_factory=dict[str, Mapping[str, Any]]
     )
+    bodies: Mapping[str, BodySpec] = field(default_factory=dict[str, BodySpec])  # by member

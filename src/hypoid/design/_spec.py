@@ -29,6 +29,14 @@ class TipRelief:
 
 
 @dataclass(frozen=True)
+class BodySpec:
+    """What carries a member's teeth, as far as it is given; mm."""
+
+    bore_diameter: float | None = None
+    mounting_distance: float | None = None  # crossing point to back face, along the axis
+
+
+@dataclass(frozen=True)
 class ExactFaceHobbedSpec:
     """A pair to be cut by the exact system of generation (Gonzalez-Perez & Fuentes-Aznar 2022)."""
 
@@ -57,3 +65,4 @@ class ExactFaceHobbedSpec:
     setting_changes: Mapping[str, Mapping[str, SettingValue]] = field(
         default_factory=dict[str, Mapping[str, SettingValue]]
     )
+    bodies: Mapping[str, BodySpec] = field(default_factory=dict[str, BodySpec])  # by member

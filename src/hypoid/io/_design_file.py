@@ -13,6 +13,7 @@ from ._keys import (
     LARGEST,
     MOST_TEETH,
     Angle,
+    BodyTable,
     DesignTable,
     Length,
     Pair,
@@ -35,6 +36,7 @@ class Member(Table):
     settings: Settings = _key("a table", {}, default=Settings())
     concave: Flank = _key("a table", {}, default=Flank())
     convex: Flank = _key("a table", {}, default=Flank())
+    body: BodyTable = _key("a table", {"bore_diameter": "40 mm"}, default=BodyTable())
 
 
 class Pinion(Member):

@@ -14,6 +14,7 @@ from ._keys import (
     LARGEST,
     MOST_TEETH,
     Angle,
+    BodyTable,
     DesignTable,
     Length,
     Pair,
@@ -77,6 +78,7 @@ class SheetMember(Table):
     blade: BladeTable = key("a table", {"edge_radius": "1 mm"}, default=BladeTable())
     concave: SheetFlank = key("a table", {}, default=SheetFlank())
     convex: SheetFlank = key("a table", {}, default=SheetFlank())
+    body: BodyTable = key("a table", {"bore_diameter": "40 mm"}, default=BodyTable())
 
 
 class SheetPair(Pair):

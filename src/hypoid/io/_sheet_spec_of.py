@@ -17,6 +17,7 @@ from hypoid.design import (
     cut_apart,
 )
 
+from ._bodies import bodies_of
 from ._defaults import defaults_used
 from ._quantity import parse
 from ._sheet_cutter import BladeTable, TopremTable
@@ -63,6 +64,7 @@ def sheet_spec_of(file: SummarySheetFile) -> SummarySheetSpec:
         marking_thickness=file.contact.marking_thickness,
         normal_backlash=BACKLASH if free else backlash,
         machine_constants=constants,
+        bodies=bodies_of(file),
     )
 
 

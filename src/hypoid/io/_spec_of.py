@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from hypoid.design import Assumption, ExactFaceHobbedSpec, SettingValue, TipRelief
 
+from ._bodies import bodies_of
 from ._defaults import defaults_used
 from ._design_file import DesignFile, Relief, Settings
 
@@ -46,6 +47,7 @@ def spec_of(file: DesignFile) -> ExactFaceHobbedSpec:
         tip_relief=_relief(cutting.tip_relief),
         marking_thickness=file.contact.marking_thickness,
         setting_changes=_setting_changes(file),
+        bodies=bodies_of(file),
     )
 
 

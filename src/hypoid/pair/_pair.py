@@ -26,6 +26,8 @@ class Member:
     convex: Flank
     # Turn that puts the convex flank into its slot, rad (left hand): zero where one setting cuts both.
     stock_turn: float = 0.0
+    bore: float | None = None  # radius, mm, where the design gives it
+    mounting_distance: float | None = None  # mm, crossing point to back face
 
     @cached_property
     def tooth(self) -> Tooth:

@@ -72,9 +72,15 @@ class Merged:
     def at(self, distance: Array, share: Array) -> tuple[Array, Array]:
         low, high = (border(distance)[:, None] for border in (self.low, self.high))
         height = low + (high - low) * share**2
-        at = self.flank.at_cone(np.broadcast_to(distance[:, None], height.shape), height)
-        shape, hand = (*height.shape, 3), self.flank.hand
-        return (at.position * hand).reshape(shape), (at.normal * hand).reshape(shape)
+        flank, root = self.flank, share <= 0.0
+        at = flank.at_cone(np.broadcast_to(distance[:, None], height.shape), height)
+        shape = (*height.shape, 3)
+        position, normal = ((a * flank.hand).reshape(shape) for a in (at.position, at.normal))
+        if root.any():  # the lowest line itself, where heights have a double root
+            _, _, s, turn = lowest(flank, distance)
+            ends = flank.at_cutter(s, turn, flank.cut_pieces[-1])
+            position[:, root], normal[:, root] = ((a * flank.hand)[:, None] for a in ends)
+        return position, normal
 
 
 def pieces(
