@@ -104,7 +104,7 @@ def cut_faults(flank: Flank, spec: FlankSpec, half_breadth: float | None) -> lis
                 replace(p, given=f"{p.given} for the {flank.name} flank") for p in error.problems
             )
     height = spec.blade.height
-    if height is not None and flank.generated:
+    if height is not None and np.isfinite(charts[0].error):
         ends = np.array([flank.toe, flank.heel])
         top = charts[0].bounds(ends)[1]
         lacking = float(np.max(flank.tip.at(ends) - top))

@@ -60,6 +60,10 @@ class ExactFaceHobbedSpec:
     tip_edge_radius_factor: float  # r_t / m_mn
     tip_relief: TipRelief | None
     marking_thickness: float  # mm, of the virtual marking compound
+    # Between the axes of the outer and the inner blades of a two-part head (Cyclo-Palloid), mm, and
+    # how much of it moves the outer ones.
+    eccentricity: float = 0.0
+    outer_share: float = 0.5
     # By flank, "pinion.concave" and so on: the settings that the file gives, in mm and rad, by
     # their field's names; the program designs the rest.
     setting_changes: Mapping[str, Mapping[str, SettingValue]] = field(
