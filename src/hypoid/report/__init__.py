@@ -10,14 +10,20 @@ from ._progress import Progress as Progress
 from ._progress import terminal_progress as terminal_progress
 
 if TYPE_CHECKING:
+    from ._figures_tooth import tooth_figure as tooth_figure
     from ._report import ReportSummary as ReportSummary
     from ._report import report_html as report_html
     from ._report import write_report as write_report
+    from ._style import look as look
 
-_LAZY = ("ReportSummary", "report_html", "write_report")
+_LAZY = {
+    **dict.fromkeys(("ReportSummary", "report_html", "write_report"), "_report"),
+    "look": "_style",
+    "tooth_figure": "_figures_tooth",
+}
 
 
 def __getattr__(name: str) -> Any:
     if name in _LAZY:
-        return getattr(import_module("._report", __name__), name)
+        return getattr(import_module(f".{_LAZY[name]}", __name__), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
