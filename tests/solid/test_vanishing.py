@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-import hypoid
+from hypoid.design import build
 from hypoid.flank import Flank, Side, Tooth, lowest
-from hypoid.io import example_files
+from hypoid.io import example_files, parse_spec
 from hypoid.solid import tooth_splines
 
 FILE = next(file for file in example_files() if file.stem == "vimercati-piazza-2005")
@@ -19,14 +19,19 @@ NEAR = 0.02  # mm along the face, over which the Toprem grows to 0.1 um
 UM = 1e-3
 
 
-@lru_cache
-def tooth() -> Tooth:
-    return hypoid.read(FILE).pinion.tooth
+LENGTHS = (1.6, 2.0)  # mm, of the Toprem: as in the file, and where it widens on both flanks
 
 
 @lru_cache
-def splines() -> Any:
-    return tooth_splines(tooth())
+def tooth(length: float = LENGTHS[0]) -> Tooth:
+    text, own = FILE.read_text(encoding="utf-8"), 'toprem = { length = "1.6 mm"'
+    assert own in text
+    return build(parse_spec(text.replace(own, own.replace("1.6", f"{length}")))).pinion.tooth
+
+
+@lru_cache
+def splines(length: float = LENGTHS[0]) -> Any:
+    return tooth_splines(tooth(length))
 
 
 def toprem_seen(flank: Flank, distance: Any) -> Any:
@@ -59,14 +64,16 @@ def test_spans_end_where_the_toprem_vanishes(side: Side) -> None:
 
 
 @pytest.mark.parametrize("side", VANISHES)
-def test_every_face_lies_on_the_surface_that_is_cut(side: Side) -> None:
+@pytest.mark.parametrize("length", LENGTHS)
+def test_every_face_lies_on_the_surface_that_is_cut(length: float, side: Side) -> None:
     """Against ``at_cone`` at the splines' own places, which knows neither strips nor stations."""
-    flank, turn = tooth().flank(side), tooth().convex_turn if side == "convex" else 0.0
+    own = tooth(length)
+    flank, turn = own.flank(side), own.convex_turn if side == "convex" else 0.0
     cosine, sine = np.cos(turn), np.sin(turn)
     back = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
     inner = np.linspace(0.004, 0.996, 32)
     off: dict[str, float] = {}
-    for span in splines():
+    for span in splines(length):
         for patch in span.patches:
             if not patch.strip.name.startswith(side):
                 continue

@@ -17,6 +17,8 @@ Line = tuple[Array, Array]  # edge parameters and turns along the face
 SCAN = 65  # heights in each section that are looked at
 STEPS = 8
 TANGENT = 1e-6  # mm, between the ends of two pieces that join without a kink
+CLOSE = 1e-8  # mm and rad, what Newton may leave
+BY_JOINT = 1e-3  # mm of edge, within which differences no longer tell a crossing from the joint
 ARRIVED = 1e-12  # mm and rad, which the next step takes to what rounding leaves
 SLACK = 1e-6  # mm, of an edge parameter beyond its piece's end
 
@@ -78,7 +80,7 @@ def borders(
             return []
         middle, met = np.array([0.5 * (span[0] + span[1])]), (high, low)
         if not flank.generated and name == lowest_name and rise(flank, middle)[0] < 0.0:
-            met = _crossing(flank, (name, after), distance, tip, span, (high[0], low[0]))
+            met = _crossing(flank, (name, after), distance, tip, span, (high, low))
         elif (
             np.abs(height - start).max() > TANGENT
         ):  # a kink of the edge: each goes on below the other
@@ -97,20 +99,23 @@ def _crossing(
     distance: Array,
     tip: Array,
     span: tuple[float, float],
-    joint: Line,
+    joint: tuple[Line, Line],
 ) -> tuple[Line, Line] | None:
     """Where the lowest piece crosses the next (undercut), from where points by height change pieces.
 
     Where undercut begins, both pieces leave their joint: the upper one in proportion, the lower one with the square.
     """
-    share = np.linspace(0.0, 1.0, SCAN + 1)[1:]
-    low = lowest(flank, distance)[0]
-    seen = flank.at_cone(np.tile(distance, SCAN), (low + np.outer(share, tip - low)).ravel())
-    piece, s, turn = (a.reshape(SCAN, -1) for a in (seen.piece, seen.s, seen.theta))
-    row, every = np.argmax(piece != piece[0], axis=0), np.arange(len(distance))
-    if (row == 0).any():
-        return None
-    line = [(s[r, every], turn[r, every]) for r in (row - 1, row)]
+    low, high, every = lowest(flank, distance)[0], tip, np.arange(len(distance))
+    line: list[Line] = []
+    for share in (np.linspace(0.0, 1.0, SCAN + 1)[1:], np.linspace(0.0, 1.0, SCAN)):
+        height = low + np.outer(share, high - low)
+        seen = flank.at_cone(np.tile(distance, SCAN), height.ravel())
+        piece, s, turn = (a.reshape(SCAN, -1) for a in (seen.piece, seen.s, seen.theta))
+        row = np.argmax(piece != piece[0], axis=0)
+        if (row == 0).any():
+            return None
+        line = [(s[r, every], turn[r, every]) for r in (row - 1, row)]
+        low, high = height[row - 1, every], height[row, every]
     ends = [end for end in span if abs(float(rise(flank, np.array([end]))[0])) < 1e-6]
     if ends:
         middle = [len(distance) // 2]
@@ -121,8 +126,9 @@ def _crossing(
         ratio = away / away[middle]
         line = [
             (j + (at[0] - j) * ratio**power, at[1] + 0.0 * ratio)
-            for at, j, power in zip(met, joint, (2, 1), strict=True)
+            for at, (j, _), power in zip(met, joint, (2, 1), strict=True)
         ]
+        return meet_by_joint(flank, names, distance, line, joint)
     return meet(flank, names, distance, line)
 
 
@@ -131,7 +137,7 @@ def meet(
     names: tuple[str, str],
     distance: Array,
     start: Sequence[Line],
-    close: float = 1e-8,
+    close: float = CLOSE,
 ) -> tuple[Line, Line] | None:
     """Where two pieces cross at cone distances; None where they do not, between their own ends."""
     *lines, left = extended_meet(flank, names, distance, start)
@@ -139,6 +145,25 @@ def meet(
         if not ((s > float(own.low) - SLACK) & (s < float(own.high) + SLACK)).all():
             return None
     return (lines[0], lines[1]) if (left < close).all() else None
+
+
+def meet_by_joint(
+    flank: Flank,
+    names: tuple[str, str],
+    distance: Array,
+    start: Sequence[Line],
+    joint: tuple[Line, Line],
+) -> tuple[Line, Line] | None:
+    """The same where undercut begins, from starts that close in on the joint as crossings do: at it, they stand."""
+    *lines, left = extended_meet(flank, names, distance, start)
+    near = start[1][0] - joint[1][0] < BY_JOINT
+    if not (near | (left < CLOSE)).all():
+        return None
+    low, high = (
+        (np.where(near, own[0], s), np.where(near, own[1], turn))
+        for own, (s, turn) in zip(start, lines, strict=True)
+    )
+    return low, high
 
 
 def extended_meet(

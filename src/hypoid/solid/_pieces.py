@@ -102,8 +102,10 @@ def pieces(
     ):
         if band and ends is band:
             owners = flank.cut_pieces[-1], flank.cut_pieces[-3]
-            heights = [height_of(flank, *of, distance) for of in zip(owners, band, strict=True)]
-            made.append(Merged(flank, *(fitted(h) for h in heights), name, rooted=False))
+            below, above = (
+                fitted(height_of(flank, *of, distance)) for of in zip(owners, band, strict=True)
+            )
+            made.append(Merged(flank, below, above, name, rooted=False))
             continue
         lower, upper = (_Border(fitted(s), fitted(t)) for s, t in ends)
         piece = flank.pieces[name]

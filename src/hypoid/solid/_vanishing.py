@@ -13,14 +13,12 @@ import numpy as np
 
 from hypoid.flank import Flank
 
-from ._borders import Line, edge_end, extended_meet, rise
+from ._borders import CLOSE, Line, edge_end, extended_meet, meet_by_joint, rise
 
 Array = np.ndarray[Any, Any]
 NARROW = (
     6e-3  # mm of the third piece's edge, from where the lowest would cross it to the band's end
 )
-CLOSE = 1e-8  # mm and rad, what Newton may leave
-NEAR_JOINT = 1e-3  # mm of edge, within which a crossing is no longer told from the joint
 MET = 1e-6  # mm, where the three cross
 
 
@@ -89,8 +87,5 @@ def _joint(flank: Flank, distance: Array, span: Array) -> Line | None:
         (line[0] + np.interp(distance, ends, ratio) * fall**power, line[1])
         for line, ratio, power in zip(own, (back, on), (2, 1), strict=True)
     ]
-    (s, turn), _, missed = extended_meet(flank, (lowest, second), distance, start)
-    near = start[1][0] - own[1][0] < NEAR_JOINT
-    if not (near | (missed < CLOSE)).all():
-        return None
-    return np.where(near, start[0][0], s), np.where(near, start[0][1], turn)
+    met = meet_by_joint(flank, (lowest, second), distance, start, own)
+    return met[0] if met else None
