@@ -132,9 +132,7 @@ def _split(value: Array, contact: UnloadedContact) -> EaseOff:
     if there.sum() < 6:
         nothing = (float("nan"),) * 6
         return EaseOff(value, nodes.distance, nodes.height, *nothing)
-    terms = np.stack([np.ones_like(x), x, y, x * x, y * y, x * y], axis=-1)[there]
-    fit, *_ = np.linalg.lstsq(terms, value[there], rcond=None)
-    left = value[there] - terms @ fit
+    fit, left = six_terms(value, x, y)
     return EaseOff(
         value,
         nodes.distance,
@@ -144,5 +142,13 @@ def _split(value: Array, contact: UnloadedContact) -> EaseOff:
         lengthwise_crowning=float(fit[3]),
         profile_crowning=float(fit[4]),
         bias=float(fit[5]),
-        residual=float(np.sqrt(np.mean(left**2))),
+        residual=float(np.sqrt(np.nanmean(left**2))),
     )
+
+
+def six_terms(value: Array, x: Array, y: Array) -> tuple[Array, Array]:
+    """Least-squares coefficients (6,) of 1, x, y, x**2, y**2, xy, and what they leave, NaN where no value is."""
+    there = np.isfinite(value)
+    terms = np.stack([np.ones_like(x), x, y, x * x, y * y, x * y], axis=-1)
+    fit, *_ = np.linalg.lstsq(terms[there], value[there], rcond=None)
+    return fit, value - terms @ fit

@@ -17,6 +17,8 @@ from hypoid.cutter import EdgePiece
 from hypoid.geometry import Batch, Scalar, Vector, once, scale, sine_cosine, turn_z, unit
 from hypoid.machine import Generator, Placed, Way, meshed
 
+from ._departure import Departure, departed
+
 
 @jax.tree_util.register_dataclass
 @dataclass(frozen=True)
@@ -27,11 +29,15 @@ class Surface:
     branch: Scalar  # sign of the meshing condition's slope on the tooth
     outward: Scalar  # sign that turns the generator's normal out of the tooth
     way: Way = field(metadata={"static": True})  # how the meshing condition is met
+    departure: Departure | None = None  # of the flank as it is from the one that is generated
 
 
 def placed(surface: Surface, piece: EdgePiece, s: Batch, theta: Batch) -> tuple[Placed, Batch]:
     """Meshed points before the work's turn, and the discriminant of the meshing condition."""
-    return meshed(surface.generator, piece, s, theta, surface.branch, surface.way)
+    at, discriminant = meshed(surface.generator, piece, s, theta, surface.branch, surface.way)
+    if surface.departure is not None:
+        at = departed(at, surface.departure)
+    return at, discriminant
 
 
 def position_and_normal(

@@ -21,6 +21,14 @@ if TYPE_CHECKING:
     from ._grid import grid_csv as grid_csv
     from ._grid import grid_json as grid_json
     from ._hex_files import write_hex as write_hex
+    from ._inspection_layout import Layout as Layout
+    from ._inspection_layout import layouts as layouts
+    from ._inspection_layout import read_layout as read_layout
+    from ._inspection_layout import user_layouts as user_layouts
+    from ._inspection_read import read_inspection as read_inspection
+    from ._inspection_rewrite import corrected_design as corrected_design
+    from ._inspection_write import inspection_json as inspection_json
+    from ._inspection_write import inspection_text as inspection_text
     from ._mesh_files import write_mesh as write_mesh
     from ._points import point_files as point_files
     from ._points import tooth_points as tooth_points
@@ -33,6 +41,14 @@ _LAZY = {
     "grid_csv": "_grid",
     "grid_json": "_grid",
     "write_hex": "_hex_files",
+    "Layout": "_inspection_layout",
+    "layouts": "_inspection_layout",
+    "read_layout": "_inspection_layout",
+    "user_layouts": "_inspection_layout",
+    "corrected_design": "_inspection_rewrite",
+    "read_inspection": "_inspection_read",
+    "inspection_json": "_inspection_write",
+    "inspection_text": "_inspection_write",
     "write_mesh": "_mesh_files",
     "point_files": "_points",
     "tooth_points": "_points",

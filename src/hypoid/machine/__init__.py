@@ -11,6 +11,7 @@ from ._cam_fit import StraightBlade as StraightBlade
 from ._cam_fit import fit_cam as fit_cam
 from ._cam_fit import mean_point_angles as mean_point_angles
 from ._cradle_machine import Workpiece as Workpiece
+from ._dials import shown as shown
 from ._generator import Meshing as Meshing
 from ._generator import Placed as Placed
 from ._generator import SweptEdge as SweptEdge

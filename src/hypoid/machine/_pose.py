@@ -58,16 +58,18 @@ class Generator:
     seated: bool = field(default=False, metadata={"static": True})
 
 
-def generator(settings: MachineSettings) -> Generator:
-    """The generator of a flank from its basic settings (any of which may be traced)."""
+def generator(settings: MachineSettings, *, moving: bool = False) -> Generator:
+    """The generator of a flank from its basic settings (any of which may be traced).
+
+    ``moving`` carries all axes though they rest, so that motions may be traced, too.
+    """
     number = jnp.asarray
 
     def powers(first: Scalar, more: Sequence[float]) -> Batch:
         return number([first, *more, *[0.0] * (ORDERS - len(more))])
 
-    moved = settings.motions.moved()
     axes = None
-    if set(moved) - {"sliding_base"}:
+    if moving or set(settings.motions.moved()) - {"sliding_base"}:
         names = Axes.__dataclass_fields__
         axes = Axes(
             **{n: powers(getattr(settings, n), getattr(settings.motions, n)) for n in names}

@@ -10,6 +10,8 @@ from ._progress import Progress as Progress
 from ._progress import terminal_progress as terminal_progress
 
 if TYPE_CHECKING:
+    from ._figures_inspect import correction_image as correction_image
+    from ._figures_inspect import topography_image as topography_image
     from ._figures_tooth import tooth_figure as tooth_figure
     from ._report import ReportSummary as ReportSummary
     from ._report import report_html as report_html
@@ -20,6 +22,8 @@ _LAZY = {
     **dict.fromkeys(("ReportSummary", "report_html", "write_report"), "_report"),
     "look": "_style",
     "tooth_figure": "_figures_tooth",
+    "correction_image": "_figures_inspect",
+    "topography_image": "_figures_inspect",
 }
 
 
