@@ -11,14 +11,15 @@ DESIGN ?= examples/gonzalez-fuentes-2022.toml
 $(TOOLS)/bin/uv:
 	python3 -m pip install --quiet --target $(TOOLS) uv
 
+# Libraries are compiled to bytecode once, not at every start where the environment forbids Python to keep it.
 $(READY): pyproject.toml uv.lock | $(TOOLS)/bin/uv
-	$(UV) sync --frozen --quiet
+	$(UV) sync --frozen --quiet --compile-bytecode
 	@touch $@
 
 # The CAD kernel (400 MB) is for those who test or write STEP.
 CAD := .venv/.cad
 $(CAD): $(READY)
-	$(UV) sync --frozen --quiet --extra cad
+	$(UV) sync --frozen --quiet --compile-bytecode --extra cad
 	@touch $@
 
 # Status 1 of a command means: computed, and the design has a fault that the message names.

@@ -95,7 +95,12 @@ ON_122: Changes = {"pinion.settings": {"method": "generated", **TILT_122}}
 
 def sheet(*changes: Changes) -> dict[str, Any]:
     """The sheet with keys set; a later change goes before an earlier one."""
-    document = deepcopy(SHEET)
+    return changed(SHEET, *changes)
+
+
+def changed(document: dict[str, Any], *changes: Changes) -> dict[str, Any]:
+    """A document with keys set, or taken away."""
+    document = deepcopy(document)
     for path, value in (item for change in changes for item in change.items()):
         *tables, key = path.split(".")
         table = document

@@ -7,6 +7,7 @@ import json
 from pathlib import Path
 from typing import Any
 
+import meshio
 import numpy as np
 import pytest
 import trimesh
@@ -113,16 +114,31 @@ def test_one_member_keeps_its_name_and_people_see_a_table(export: Any, tmp_path:
 
 @pytest.mark.parametrize("name", FILES)
 def test_every_example_is_exported(export: Any, tmp_path: Path, name: str) -> None:
-    path = tmp_path / "gear.stl"
-    status, out, _ = export(str(FILES[name]), "--stl", str(path), *COARSE, "--json")
+    """In every format (STEP: `tests/io/test_step.py`), read by programs of others' making."""
+    kinds = (*KINDS, "inp", "vtu")
+    outputs = [word for kind in kinds for word in (f"--{kind}", str(tmp_path / f"out.{kind}"))]
+    outputs += ["--points", str(tmp_path / "out.csv")]
+    status, out, _ = export(str(FILES[name]), *outputs, *COARSE, "--json")
     result = json.loads(out)
     assert status == (1 if result["faults"] else 0)
     pair = hypoid.read(FILES[name])
-    assert [f["teeth"] for f in result["files"]] == [pair.pinion.teeth, pair.wheel.teeth]
     for file in result["files"]:
-        seen = trimesh.load(file["file"])
-        assert seen.is_volume
-        assert seen.volume == pytest.approx(file["volume_mm3"], rel=1e-5)
+        member, path = getattr(pair, file["member"]), Path(file["file"])
+        if file["format"] in KINDS:
+            seen = read_back(path)
+            assert file["teeth"] == member.teeth
+            assert seen.is_volume
+            assert seen.volume == pytest.approx(file["volume_mm3"], rel=1e-5)
+        elif file["format"] == "points":
+            rows = np.loadtxt(path, delimiter=",", skiprows=2, usecols=range(10))
+            assert len(rows) == 61 * 61
+        else:
+            seen = meshio.read(path)
+            cells = [block for block in seen.cells if block.type == "hexahedron20"]
+            assert sum(len(block.data) for block in cells) == file["elements"]
+            assert len(seen.points) == file["nodes"]
+    found = {(f["format"], f["member"]) for f in result["files"]}
+    assert found == {(k, m) for k in (*kinds, "points") for m in ("pinion", "wheel")}
 
 
 def test_bore_is_a_diameter(export: Any, tmp_path: Path) -> None:

@@ -9,8 +9,10 @@ from typing import Any
 import mpmath
 import numpy as np
 import pytest
+from conftest import TABLE_1
 
 from hypoid.cutter import CycloPalloidHead, FaceHobHead, edge_point, lengthwise_radius
+from hypoid.design import build
 from hypoid.flank import Flank, Side, best_way, cut_flank, flank_angles
 from hypoid.geometry import DesignError
 from hypoid.pair import GearPair, Member
@@ -258,3 +260,16 @@ def test_faults(paper_pair: GearPair, changes: dict[str, Any], key: str) -> None
         words = problem.expected.split()
         for limit in (float(words[1]) + 1e-3, float(words[4]) - 1e-3):
             assert replace(head, eccentricity=limit).faults() == []
+
+
+@pytest.mark.parametrize(("member", "side"), FLANKS)
+def test_design_file_sets_the_parts_apart(paper_pair: GearPair, member: str, side: Side) -> None:
+    """``cutting.eccentricity`` gives the flanks that the plain pair's settings, moved by hand, give."""
+    pair = build(replace(TABLE_1, eccentricity=ECCENTRICITY, outer_share=0.3))
+    made = getattr(pair, member).flank(side)
+    wanted = recut(getattr(paper_pair, member), side, ECCENTRICITY, 0.3)
+    distance, height = np.meshgrid(np.linspace(made.toe, made.heel, 5), [-1.0, 0.0, 1.5])
+    ours, theirs = made.at_cone(distance, height), wanted.at_cone(distance, height)
+    assert ours.ok.all()
+    assert np.abs(ours.position - theirs.position).max() < 1e-10
+    assert isinstance(getattr(pair, member).head, CycloPalloidHead)

@@ -196,7 +196,7 @@ def test_a_strip_ends_where_the_edge_bends(name: str, tmp_path: Path) -> None:
 def test_a_flank_that_cannot_be_told_apart_is_one_face_and_says_how_exact(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
-    monkeypatch.setattr(_pieces, "_borders", lambda *_: [])
+    monkeypatch.setattr(_pieces, "borders", lambda *_: [])
     report = write_step(member_of("lin-tsay-fong-1996", "wheel"), tmp_path / "x.step")
     assert report.valid
     assert report.closed

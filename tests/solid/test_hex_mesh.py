@@ -34,6 +34,8 @@ MEMBERS = [
     ("tsay-lin-1993", "pinion"),
     ("tsay-lin-1993", "wheel"),  # Formate, no fillet
     ("tsay-lin-1993-as-printed", "pinion"),  # undercut and pointed
+    ("vimercati-piazza-2005", "pinion"),  # Toprem cut away at the toe
+    ("vimercati-piazza-2005", "wheel"),  # fillets that nearly meet
 ]
 # C3D20 as Abaqus and CalculiX number it: bottom, top, edges of the bottom, of the top, upright ones
 NODES = np.array(

@@ -20,7 +20,7 @@ from ._output import report_faults, write_json, write_members
 from ._staged import staged
 
 if TYPE_CHECKING:
-    from hypoid.pair import GearPair, Member
+    from hypoid.pair import Assumption, GearPair, Member
 
 Signed = Parameter(allow_leading_hyphen=True)
 
@@ -82,8 +82,8 @@ def export(
     count = _teeth(teeth, problems)
     chords, diameter = _lengths(chord_error, bore, problems)
     pair = _pair(file, problems)
+    members = [] if pair is None else [getattr(pair, name) for name in names]
     if pair is not None:
-        members = [getattr(pair, name) for name in names]
         problems += _request_problems(members, count, chords, diameter)
     if problems or pair is None:
         raise DesignError(problems)
@@ -98,13 +98,34 @@ def export(
             faults += wrong
     for result in results:  # where the files were moved to
         result["file"] = str(wanted[result["format"]].parent / Path(result["file"]).name)
+    rims = _assumed_rims(members, diameter)
     if json:
-        assumed = [asdict(a) for a in pair.assumed]
+        assumed = [asdict(a) for a in (*pair.assumed, *rims)]
         write_json({"files": results, "faults": faults, "assumed": assumed})
     else:
         for title, columns in for_people(results).items():
             write_members(title, columns)
+        for rim in rims if wanted.keys() - {"points"} else []:
+            print(f"Assumed {rim.value}: {rim.reason}")
     return report_faults(faults)
+
+
+def _assumed_rims(members: Sequence[Member], bore: float | None) -> list[Assumption]:
+    """What the program put in for the bodies below the teeth."""
+    from hypoid.pair import Assumption
+    from hypoid.solid import RIM, body
+
+    found: list[Assumption] = []
+    for member in members:
+        ring = body(member)
+        for key, given, value in (
+            ("bore_diameter", bore or member.bore, 2.0 * ring.bore),
+            ("mounting_distance", member.mounting_distance, ring.back),
+        ):
+            if given is None:
+                reason = f"not given; {value:.5g} mm leaves a rim of {RIM:g} whole depths"
+                found.append(Assumption(f"{member.name}.body.{key}", reason))
+    return found
 
 
 def _path_problems(wanted: Mapping[str, Path], names: Sequence[str]) -> list[Problem]:
@@ -182,4 +203,9 @@ def _request_problems(
             expected = f"a diameter between 0 and {most:.4g} mm for the {member.name}"
             found.append(Problem("bore", f"{bore:g} mm", expected, f'"{0.6 * most:.3g} mm"'))
     named = {"chord_error": "--chord-error", "teeth": "--teeth", "bore": "--bore"}
-    return [replace(p, path=named[p.path], example=f"{named[p.path]} {p.example}") for p in found]
+    return [
+        replace(p, path=named[p.path], example=f"{named[p.path]} {p.example}")
+        if p.path in named
+        else replace(p, example=f"{p.path.split('.')[-1]} = {p.example}")
+        for p in found
+    ]

@@ -19,11 +19,13 @@ from hypoid.pair import Direction, GearPair
 
 from ._edges import zoom
 from ._field import FlankNodes, angle_field, flank_nodes, lead_grid
+from ._handover import handovers, peak_to_peak
 from ._mounting import Misalignment, Mounting, mounting, to_wheel
 from ._refine import ContactPoints, refine
 
 EDGE_WINS = 1e-8  # rad: an edge counts as contact where it leads the flanks by more (2 milliarcsec)
 GRID_BIAS = 5e-5  # rad: how far a grid may misplace an edge's lead (methods: 5 arcsec), twice
+GAP = 1e-3  # pitches: contacts of the flanks themselves that leave out more leave it to an edge
 TOUCHING = 1e-9  # rad: pairs within this of the leader touch, too
 
 
@@ -98,7 +100,9 @@ class UnloadedContact:
     @property
     def peak_to_peak(self) -> float:
         """Peak to peak transmission error over one pitch, rad; NaN where the flanks do not always meet."""
-        return float(np.ptp(self.envelope)) if self.touched else float("nan")
+        if not self.touched:
+            return float("nan")
+        return peak_to_peak(self.phi[self.cycle], self.pair_curves)
 
     @cached_property
     def touched(self) -> bool:
@@ -107,11 +111,12 @@ class UnloadedContact:
 
     @cached_property
     def edge_contact(self) -> bool:
-        """Whether at some position an edge leads every contact of the flanks themselves."""
+        """Whether an edge leads every contact of the flanks themselves, at some position or between."""
         n, reach = self.sampling.positions_per_pitch, self.sampling.pairs // 2
         inside = np.where(self.interior, self.points.lead, -np.inf)
         best = np.max([inside[self.cycle - k * n] for k in range(-reach, reach + 1)], axis=0)
-        return bool((self.envelope > best + EDGE_WINS).any())
+        led = bool((self.envelope > best + EDGE_WINS).any())
+        return led or (self.touched and self.contact_ratio < 1.0 - GAP)
 
     @cached_property
     def on_path(self) -> np.ndarray:
@@ -213,7 +218,12 @@ class UnloadedContact:
             outline = self.margins(inward).T
             ends = [self._crossing(self.phi[inward], line, at, side) for line in outline]
             return at + side * min(*(abs(end - at) for end in ends), step)
-        return at + side * 0.5 * step
+        n, nothing = self.sampling.positions_per_pitch, np.full_like(self.curve, -np.inf)
+        after, before = nothing.copy(), nothing.copy()
+        after[n:], before[:-n] = self.curve[:-n], self.curve[n:]
+        passed = handovers(self.phi, np.array([before, self.curve, after]))
+        near = [h.angle for h in passed if -1e-9 <= (h.angle - at) * side <= step + 1e-9]
+        return near[0] if near else at + side * 0.5 * step
 
     @staticmethod
     def _crossing(phi: np.ndarray, margin: np.ndarray, at: float, side: int) -> float:

@@ -99,13 +99,14 @@ def _curve_fault(faults: _Faults, blade: TriAcBlade) -> bool:
             radius > 0.0,
         )
     limit = f" of at least {round_up(1.0 / most):g} mm" if most < math.inf else ""
+    example = 762.0 if most * 762.0 > 1.0 else math.ceil(1.2 / most)
     return faults.need(
         abs(blade.bend) < most,  # never of NaN
         "curve_radius",
         f"{radius:g} mm",
         f"a signed radius{limit} in amount: the edge then leans between {LEANS} from tip to shank; "
         "or 0 mm for a straight edge",
-        "762 mm",
+        f"{example:g} mm",
     )
 
 

@@ -13,9 +13,12 @@ from ._sheet_spec import BladeSpec as BladeSpec
 from ._sheet_spec import FlankSpec as FlankSpec
 from ._sheet_spec import MemberSpec as MemberSpec
 from ._sheet_spec import Method as Method
+from ._sheet_spec import StickBladeSpec as StickBladeSpec
 from ._sheet_spec import SummarySheetSpec as SummarySheetSpec
+from ._sheet_spec import TopremReading as TopremReading
 from ._sheet_spec import cut_apart as cut_apart
 from ._spec import Assumption as Assumption
+from ._spec import BodySpec as BodySpec
 from ._spec import ExactFaceHobbedSpec as ExactFaceHobbedSpec
 from ._spec import Hand as Hand
 from ._spec import SettingValue as SettingValue

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from hypoid.pair import GearPair
+from dataclasses import replace
+
+from hypoid.pair import GearPair, Member
 
 from ._blank import Spec
 from ._exact_face_hobbed import build_exact
 from ._milled_pair import build_milled
 from ._sheet_spec import SummarySheetSpec
+from ._spec import BodySpec
 
 
 def build(spec: Spec) -> GearPair:
@@ -18,4 +21,11 @@ def build(spec: Spec) -> GearPair:
     DesignError
         Where no such pair exists, with the violated limit.
     """
-    return build_milled(spec) if isinstance(spec, SummarySheetSpec) else build_exact(spec)
+    pair = build_milled(spec) if isinstance(spec, SummarySheetSpec) else build_exact(spec)
+    members = {name: _carried(getattr(pair, name), body) for name, body in spec.bodies.items()}
+    return replace(pair, **members)
+
+
+def _carried(member: Member, body: BodySpec) -> Member:
+    bore = None if body.bore_diameter is None else 0.5 * body.bore_diameter
+    return replace(member, bore=bore, mounting_distance=body.mounting_distance)

@@ -12,7 +12,7 @@ from dataclasses import replace
 from typing import Any
 
 from hypoid.blank import MemberBlank, PairBlank
-from hypoid.cutter import Blade, BladeRelief, FaceHobHead
+from hypoid.cutter import Blade, BladeName, BladeRelief, CycloPalloidHead, FaceHobHead
 from hypoid.flank import Border, Flank, PitchCone, Side, best_way, cut_flank
 from hypoid.geometry import DesignError, Problem
 from hypoid.machine import MachineSettings, SummarySheet, from_sheet, to_sheet
@@ -129,24 +129,34 @@ def _changed(spec: ExactFaceHobbedSpec, name: str, side: str, exact: MachineSett
 def _member(
     spec: ExactFaceHobbedSpec, blank: PairBlank, member: MemberBlank, exact: MachineSettings
 ) -> Member:
-    head = exact_head(spec, blank, member)
+    plain = exact_head(spec, blank, member)
+    head: FaceHobHead | CycloPalloidHead = plain
+    if spec.eccentricity:
+        head = CycloPalloidHead(plain, spec.eccentricity, spec.outer_share).checked("cutting")
     apex = member.pitch_apex_beyond_crossing_point
     cone = PitchCone(apex, math.sin(member.pitch_angle), math.cos(member.pitch_angle))
     # Blades stand in the head so that theta = 0 puts the outer one at the pitch point.
-    phase = exact.cradle_angle - member.mean_spiral_angle + head.slope_angle
+    phase = exact.cradle_angle - member.mean_spiral_angle + plain.slope_angle
 
     def flank(side: Side) -> Flank:
         outer = side == "concave"
-        pieces = head.pieces("outer" if outer else "inner")
-        settings = _changed(spec, member.name, side, exact, apex)
+        name: BladeName = "outer" if outer else "inner"
+        pieces, settings, turn = head.pieces(name), exact, phase
+        if isinstance(head, CycloPalloidHead):
+            at = head.setting(name, exact.radial_distance, exact.cradle_angle, phase)
+            turn = at.turn
+            settings = replace(
+                exact, radial_distance=at.radial_distance, cradle_angle=at.cradle_angle
+            )
+        settings = _changed(spec, member.name, side, settings, apex)
         return cut_flank(
             member.name,
             side,
             settings,
-            {name: piece.turned(phase) for name, piece in pieces.items()},
+            {key: piece.turned(turn) for key, piece in pieces.items()},
             cone,
             mirrored=member.hand == "right",
-            theta_start=0.0 if outer else -math.pi / head.blade_groups,
+            theta_start=0.0 if outer else -math.pi / plain.blade_groups,
             toe=member.mean_cone_distance - member.inner_face_width,
             heel=member.mean_cone_distance + member.outer_face_width,
             tip=Border(member.mean_addendum, 0.0),

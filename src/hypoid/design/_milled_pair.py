@@ -1,4 +1,4 @@
-"""From a summary sheet to a pair: face-milled flanks as their cutters and settings make them.
+"""From a summary sheet to a pair: flanks as their cutters and settings make them.
 
 The blank gives toe, heel and face cone. Root, fillet and active flank are where the cutter leaves
 them; where the sheet does not give a root cone, it is the line along the lowest points of the cut.
@@ -14,15 +14,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from hypoid.blank import MemberBlank, with_root_line
-from hypoid.cutter import (
-    BladeCurve,
-    CircularProfile,
-    FaceMillHead,
-    Flankrem,
-    MillBlade,
-    ParabolicProfile,
-    Toprem,
-)
+from hypoid.cutter import FaceMillHead
 from hypoid.flank import (
     SIDES,
     Border,
@@ -44,11 +36,12 @@ from hypoid.machine import (
     constants_of,
     from_sheet,
 )
-from hypoid.pair import Assumption, GearPair, Member
+from hypoid.pair import Assumption, GearPair, Head, Member
 
 from ._blank import sheet_blank
 from ._sheet_faults import at_file, cut_faults
-from ._sheet_spec import BladeSpec, FlankSpec, MemberSpec, SummarySheetSpec
+from ._sheet_heads import sheet_head
+from ._sheet_spec import FlankSpec, MemberSpec, SummarySheetSpec
 from ._stock import divided
 
 T = TypeVar("T")
@@ -85,7 +78,7 @@ class Cut:
     job: Job
     side: Side
     settings: MachineSettings
-    head: FaceMillHead
+    head: Head
 
     @property
     def spec(self) -> FlankSpec:
@@ -179,7 +172,8 @@ def _settings(job: Job, side: Side) -> MachineSettings:
         apex = job.blank.pitch_apex_beyond_crossing_point
         dials = dict(flank.dials)
         motions = Motions(**dials.pop("motions", {}))
-        sheet = SummarySheet(roll_to_blade_ratio=0.0, motions=motions, **dials)
+        ratio = (job.spec.blade_groups or 0) / job.spec.teeth
+        sheet = SummarySheet(roll_to_blade_ratio=ratio, motions=motions, **dials)
         settings = from_sheet(sheet, apex)
     else:
         machine = MACHINES[flank.machine]
@@ -191,44 +185,9 @@ def _settings(job: Job, side: Side) -> MachineSettings:
     return replace(settings, generated=settings.generated and not formed)
 
 
-def _curve(blade: BladeSpec) -> BladeCurve | None:
-    if blade.curve == "circular-arc":
-        return CircularProfile(blade.curve_radius, blade.reference_height)
-    if blade.curve == "parabola":
-        return ParabolicProfile(blade.curve_coefficient, blade.reference_height)
-    return None
-
-
-def _land(blade: BladeSpec) -> float:
-    """Flat at the tips, mm: half the point width, or all that an edge arc may want of a blade alone."""
-    if blade.land is not None:
-        return blade.land
-    return max(0.5 * blade.point_radius, 1.2 * blade.edge_radius)
-
-
-def _head(job: Job, side: Side) -> FaceMillHead:
+def _head(job: Job, side: Side) -> Head:
     """The head of a flank: one blade, or both where one cutter cuts both sides."""
-    together = job.flank(side).blade.land is not None
-
-    def blade(of: Side) -> MillBlade | None:
-        spec = job.flank(of).blade
-        if not (together or of == side):
-            return None
-        return MillBlade(
-            name="outer" if of == "concave" else "inner",
-            point_radius=spec.point_radius,
-            angle=spec.angle,
-            edge_radius=spec.edge_radius,
-            land=_land(spec),
-            height=spec.height or job.reach,
-            profile=_curve(spec),
-            toprem=None if spec.toprem is None else Toprem(*spec.toprem),
-            flankrem=None if spec.flankrem is None else Flankrem(*spec.flankrem),
-        )
-
-    return FaceMillHead(outer=blade("concave"), inner=blade("convex")).checked(
-        f"{job.name}.cutter", (f"{job.name}.concave.blade", f"{job.name}.convex.blade")
-    )
+    return sheet_head(job.name, job.spec, side, job.reach)
 
 
 def _member(job: Job, cuts: list[Cut], flanks: list[Flank]) -> Member:
@@ -241,7 +200,7 @@ def _member(job: Job, cuts: list[Cut], flanks: list[Flank]) -> Member:
         slope = float(np.mean([root.slope for root in roots]))
         blank = with_root_line(blank, mean, blank.pitch_angle + math.atan(slope))
     outside, inside = (cut.head for cut in cuts)
-    heads: dict[Side, FaceMillHead] = {"concave": outside}
+    heads: dict[Side, Head] = {"concave": outside}
     heads["convex"] = outside if inside == outside else inside
     return Member(blank, heads, concave, convex)
 
@@ -249,7 +208,8 @@ def _member(job: Job, cuts: list[Cut], flanks: list[Flank]) -> Member:
 def _flank(cut: Cut) -> Flank:
     job, settings = cut.job, cut.settings
     pieces = cut.head.pieces("outer" if cut.side == "concave" else "inner")
-    if not settings.generated:  # theta = 0 where the blade passes the mean point
+    milled = isinstance(cut.head, FaceMillHead)
+    if milled and not settings.generated:  # theta = 0 where the blade passes the mean point
         turn = form_turn(settings, job.blank)
         pieces = {name: piece.turned(turn) for name, piece in pieces.items()}
     return cut_flank(
@@ -263,7 +223,7 @@ def _flank(cut: Cut) -> Flank:
         heel=job.blank.outer_cone_distance,
         tip=job.tip,
         root=Border(-1.5 * job.reach, 0.0),
-        way=best_way(settings, revolution=True),
+        way=best_way(settings, revolution=milled),
     )
 
 

@@ -11,12 +11,19 @@ from hypoid.flank import Flank, roll_range
 from hypoid.geometry import DesignError, Problem
 from hypoid.machine import check_roll
 
-from ._sheet_spec import FlankSpec, MemberSpec
+from ._sheet_spec import BladeSpec, FlankSpec, MemberSpec, StickBladeSpec
 
 _BLADE_KEYS = {
     "profile.radius": "radius",
     "profile.coefficient": "coefficient",
     "profile.reference_height": "reference_height",
+}
+_STICK_KEYS = {
+    "radius": "blade_radius",
+    "blade_angle": "angle",
+    "height": "reference_height",
+    "rake_angle": "side_rake_angle",
+    "curve_radius": "radius",
 }
 
 
@@ -43,6 +50,8 @@ def at_file(problem: Problem, name: str, member: MemberSpec) -> Problem:
 
 def _at_blade(problem: Problem, name: str, side: str, flank: FlankSpec, key: str) -> Problem:
     """Radii become diameters, the land half the point width; a blade alone has all the land it wants."""
+    if not isinstance(flank.blade, BladeSpec):
+        return _at_stick_blade(problem, name, side, flank, flank.blade, key)
     spread = flank.blade.land is not None
     if key == "point_radius":
         given, expected = f"a point radius of {problem.given}", f"a point radius {problem.expected}"
@@ -64,6 +73,20 @@ def _at_blade(problem: Problem, name: str, side: str, flank: FlankSpec, key: str
     return replace(problem, path=path, expected=expected)
 
 
+def _at_stick_blade(
+    problem: Problem, name: str, side: str, flank: FlankSpec, blade: StickBladeSpec, key: str
+) -> Problem:
+    """The paper's measures by the keys of the file; what the shank wants is the blade's whole height."""
+    if key == "shank_height":
+        expected = f"more than its reference height: above the pitch point, {problem.expected}"
+        example = f'height = "{blade.reference_height + 6.0:g} mm"'
+        return replace(problem, path=f"{name}.cutter.height", expected=expected, example=example)
+    axial = blade.toprem is not None and blade.toprem[2] == "axial"
+    own = "toprem.height" if axial and key == "toprem.length" else _STICK_KEYS.get(key, key)
+    example = re.sub(r"^\w+", own.split(".")[-1], problem.example)
+    return replace(problem, path=place(name, side, flank, "blade", own), example=example)
+
+
 def cut_faults(flank: Flank, spec: FlankSpec, half_breadth: float | None) -> list[Problem]:
     """What shows when a flank is cut: a cam beyond its uniform motion, blades too short for the tooth.
 
@@ -81,7 +104,7 @@ def cut_faults(flank: Flank, spec: FlankSpec, half_breadth: float | None) -> lis
                 replace(p, given=f"{p.given} for the {flank.name} flank") for p in error.problems
             )
     height = spec.blade.height
-    if height is not None and flank.generated:
+    if height is not None and np.isfinite(charts[0].error):
         ends = np.array([flank.toe, flank.heel])
         top = charts[0].bounds(ends)[1]
         lacking = float(np.max(flank.tip.at(ends) - top))

@@ -8,12 +8,13 @@ from typing import Any, Literal
 
 from hypoid.blank import GivenBlank
 
-from ._spec import Assumption, Hand
+from ._spec import Assumption, BodySpec, Hand
 
 Method = Literal[
     "generated", "formate", "helixform", "modified-roll", "tilt", "duplex", "helical-duplex"
 ]
 Curve = Literal["straight", "circular-arc", "parabola"]
+TopremReading = Literal["along-flank", "axial", "straight-part"]
 
 
 @dataclass(frozen=True)
@@ -34,13 +35,29 @@ class BladeSpec:
 
 
 @dataclass(frozen=True)
+class StickBladeSpec:
+    """One stick blade of a face-hob head."""
+
+    radius: float  # of the pitch point about the cutter's axis
+    angle: float  # ground in the tool plane
+    edge_radius: float = 0.0
+    height: float | None = None  # along the axis, from tip to shank; None: as the tooth needs
+    reference_height: float = 0.0  # of the pitch point above the tip
+    curve_radius: float = 0.0  # positive crowns the tooth; 0: a straight edge
+    eccentric_angle: float = 0.0
+    hook_angle: float = 0.0
+    side_rake_angle: float = 0.0
+    toprem: tuple[float, float, TopremReading] | None = None  # angle, length, how it counts
+
+
+@dataclass(frozen=True)
 class FlankSpec:
     """How one flank is cut."""
 
     method: Method
     machine: str  # "basic", or a physical machine by name
     dials: Mapping[str, Any]  # that machine's dials by name: numbers, tooth counts, motions
-    blade: BladeSpec
+    blade: BladeSpec | StickBladeSpec
     # Keys that the file gives at the flank, as "blade.angle"; all others stand at its member.
     at_flank: frozenset[str] = frozenset()
 
@@ -54,12 +71,14 @@ class MemberSpec:
     blank: GivenBlank
     concave: FlankSpec
     convex: FlankSpec
+    blade_groups: int | None = None  # of a face-hob head; None: face milled
+    spacing: float | None = None  # turn from an outer to its inner blade, rad; None: even
 
 
 def cut_apart(member: MemberSpec) -> bool:
     """Whether each flank has its own cutter or settings, so that no cut makes the whole slot."""
     sides = member.concave, member.convex
-    alone = any(flank.blade.land is None for flank in sides)
+    alone = any(isinstance(f.blade, BladeSpec) and f.blade.land is None for f in sides)
     return alone or dict(sides[0].dials) != dict(sides[1].dials)
 
 
@@ -80,3 +99,4 @@ class SummarySheetSpec:
     machine_constants: Mapping[str, Mapping[str, Any]] = field(
         default_factory=dict[str, Mapping[str, Any]]
     )
+    bodies: Mapping[str, BodySpec] = field(default_factory=dict[str, BodySpec])  # by member

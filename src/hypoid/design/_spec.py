@@ -29,6 +29,14 @@ class TipRelief:
 
 
 @dataclass(frozen=True)
+class BodySpec:
+    """What carries a member's teeth, as far as it is given; mm."""
+
+    bore_diameter: float | None = None
+    mounting_distance: float | None = None  # crossing point to back face, along the axis
+
+
+@dataclass(frozen=True)
 class ExactFaceHobbedSpec:
     """A pair to be cut by the exact system of generation (Gonzalez-Perez & Fuentes-Aznar 2022)."""
 
@@ -52,8 +60,13 @@ class ExactFaceHobbedSpec:
     tip_edge_radius_factor: float  # r_t / m_mn
     tip_relief: TipRelief | None
     marking_thickness: float  # mm, of the virtual marking compound
+    # Between the axes of the outer and the inner blades of a two-part head (Cyclo-Palloid), mm, and
+    # how much of it moves the outer ones.
+    eccentricity: float = 0.0
+    outer_share: float = 0.5
     # By flank, "pinion.concave" and so on: the settings that the file gives, in mm and rad, by
     # their field's names; the program designs the rest.
     setting_changes: Mapping[str, Mapping[str, SettingValue]] = field(
         default_factory=dict[str, Mapping[str, SettingValue]]
     )
+    bodies: Mapping[str, BodySpec] = field(default_factory=dict[str, BodySpec])  # by member

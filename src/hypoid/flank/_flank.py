@@ -128,10 +128,15 @@ class Flank:
         x, y, _ = (self.at_cone(distance, height).position * self.hand).T
         return np.arctan2(y, x).reshape(np.shape(distance))
 
+    @cached_property
+    def cut_away(self) -> tuple[str, ...]:
+        """Pieces that fold, or that another piece cuts away somewhere between toe and heel."""
+        return tuple(n for n, chart in self.charts.items() if not np.isfinite(chart.error))
+
     @property
     def generated(self) -> bool:
         """Whether the edge makes the whole flank and fillet with no singular place in between."""
-        return all(np.isfinite(chart.error) for chart in self.charts.values())
+        return not self.cut_away
 
     def at(self, z: Any, rho: Any) -> FlankPoints:
         """Surface points at axial positions z and radii rho (mm, any shape, taken flat).

@@ -13,6 +13,7 @@ from ._keys import (
     LARGEST,
     MOST_TEETH,
     Angle,
+    BodyTable,
     DesignTable,
     Length,
     Pair,
@@ -35,6 +36,7 @@ class Member(Table):
     settings: Settings = _key("a table", {}, default=Settings())
     concave: Flank = _key("a table", {}, default=Flank())
     convex: Flank = _key("a table", {}, default=Flank())
+    body: BodyTable = _key("a table", {"bore_diameter": "40 mm"}, default=BodyTable())
 
 
 class Pinion(Member):
@@ -93,6 +95,14 @@ class Cutting(Table):
     tip_edge_radius_factor: float = _key(
         "a plain number of 0 or more, times the mean normal module",
         0.38, default=0.38, ge=0, le=4,
+    )  # fmt: skip
+    eccentricity: Length | None = _key(
+        "a length, positive to crown the teeth: between the axes of a two-part head",
+        "2 mm", default=None, ge=-LARGEST, le=LARGEST,
+    )  # fmt: skip
+    outer_share: float | None = _key(
+        "a plain number from 0 to 1: how much of the eccentricity moves the outer blades",
+        0.5, default=None, ge=0, le=1,
     )  # fmt: skip
     tip_relief: Relief | None = _key(
         "a table", {"coefficient": "0.004 /mm", "height": "1.5 mm"}, default=None

@@ -110,6 +110,13 @@ class Pair(Table):
     )
 
 
+class BodyTable(Table):
+    """[pinion.body], [wheel.body]: what carries the teeth."""
+
+    bore_diameter: Length | None = key("a length above 0", "40 mm", default=None, gt=0, le=LARGEST)
+    mounting_distance: Length | None = any_length("95 mm")
+
+
 class Contact(Table):
     """[contact]."""
 

@@ -1,7 +1,7 @@
 """The design file of a summary sheet: blank, cutter and machine settings of both members.
 
 A key at a flank goes before the same key at its member. What ties several keys together stands in
-`_sheet_rules.py` and `_sheet_settings.py`.
+`_sheet_rules.py`, `_sheet_cutter_rules.py` and `_sheet_settings.py`.
 """
 
 from __future__ import annotations
@@ -14,92 +14,16 @@ from ._keys import (
     LARGEST,
     MOST_TEETH,
     Angle,
+    BodyTable,
     DesignTable,
     Length,
     Pair,
-    PerLength,
     Table,
     any_length,
     key,
 )
+from ._sheet_cutter import BladeTable, CutterTable
 from ._sheet_dials import SheetSettings
-
-STEEPEST = 10.0  # 1/mm, of a parabola on a blade
-
-
-class TopremTable(Table):
-    """toprem of a blade."""
-
-    angle: Angle = key(
-        "an angle above 0 and below 30 deg, off the flank", "7 deg", gt=0, lt=30 * DEG
-    )
-    height: Length = key("a length above 0, from the tips to the kink", "1.5 mm", gt=0, le=LARGEST)
-
-
-class FlankremTable(Table):
-    """flankrem of a blade: straight by its angle, or a parabola by its coefficient."""
-
-    height: Length = key("a length above 0, from the tips", "10 mm", gt=0, le=LARGEST)
-    angle: Angle | None = key(
-        "an angle above 0 and below 30 deg, off the flank", "2 deg", default=None, gt=0, lt=30 * DEG
-    )
-    coefficient: PerLength | None = key(
-        f"a number per length, above 0 and up to {STEEPEST:g} /mm",
-        "0.004 /mm", default=None, gt=0, le=STEEPEST,
-    )  # fmt: skip
-
-
-class BladeTable(Table):
-    """The blade of a flank; the outside blade cuts the concave one."""
-
-    angle: Angle | None = key(
-        "an angle from above -10 to below 60 deg", "20 deg", default=None, gt=-10 * DEG, lt=60 * DEG
-    )
-    edge_radius: Length | None = key(
-        "a length of 0 or more", "1 mm", default=None, ge=0, le=LARGEST
-    )
-    point_diameter: Length | None = key(
-        "a length above 0", "250.952 mm", default=None, gt=0, le=LARGEST
-    )
-    profile: Literal["straight", "circular-arc", "parabola"] | None = key(
-        '"straight", "circular-arc" or "parabola"', "straight", default=None
-    )
-    radius: Length | None = key(
-        "a length other than 0, positive to crown the tooth",
-        "800 mm", default=None, ge=-LARGEST, le=LARGEST,
-    )  # fmt: skip
-    coefficient: PerLength | None = key(
-        f"a number per length of up to {STEEPEST:g} /mm either way, positive to crown the tooth",
-        "0.0005 /mm", default=None, ge=-STEEPEST, le=STEEPEST,
-    )  # fmt: skip
-    reference_height: Length | None = key(
-        "a length of 0 or more above the tips, where a curved blade has its angle",
-        "5 mm",
-        default=None,
-        ge=0,
-        le=LARGEST,
-    )
-    toprem: TopremTable | None = key(
-        "a table", {"angle": "7 deg", "height": "1.5 mm"}, default=None
-    )
-    flankrem: FlankremTable | None = key(
-        "a table", {"height": "10 mm", "angle": "2 deg"}, default=None
-    )
-
-
-class CutterTable(Table):
-    """[pinion.cutter]: diameter and point width of a spread-blade cutter, or only its type."""
-
-    type: Literal["face-mill", "cup-wheel"] = key(
-        '"face-mill", or "cup-wheel" for a grinding wheel of that meridian', "face-mill"
-    )
-    diameter: Length | None = key(
-        "a length above 0, to the middle of the point width", "9 in", default=None, gt=0, le=LARGEST
-    )
-    point_width: Length | None = key("a length above 0", "0.1 in", default=None, gt=0, le=LARGEST)
-    height: Length | None = key(
-        "a length above 0, of the blades from their tips", "15 mm", default=None, gt=0, le=LARGEST
-    )
 
 
 class GivenBlankTable(Table):
@@ -154,6 +78,7 @@ class SheetMember(Table):
     blade: BladeTable = key("a table", {"edge_radius": "1 mm"}, default=BladeTable())
     concave: SheetFlank = key("a table", {}, default=SheetFlank())
     convex: SheetFlank = key("a table", {}, default=SheetFlank())
+    body: BodyTable = key("a table", {"bore_diameter": "40 mm"}, default=BodyTable())
 
 
 class SheetPair(Pair):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from math import degrees, radians
 
 from hypoid.blank import crown_point
@@ -21,16 +21,13 @@ from ._document import (
     value_at,
 )
 from ._keys import MOST_TEETH, keys_of
-from ._merged import SIDES, Merged, merged
-from ._sheet_file import BladeTable, CutterTable, GivenBlankTable, Grinder463Table
+from ._merged import SIDES, merged
+from ._sheet_cutter import BladeTable, CutterTable
+from ._sheet_cutter_rules import blade_rules, cutter_rules, face_hobbed, hobbing_rules
+from ._sheet_file import GivenBlankTable, Grinder463Table
 from ._sheet_settings import DUPLEX, settings_of, settings_rules
 
 _TAPER = radians(30.0)  # between pitch cone and face or root cone; more is a slip
-_MEASURES: dict[str, tuple[str, ...]] = {
-    "straight": (),
-    "circular-arc": ("radius", "reference_height"),
-    "parabola": ("coefficient", "reference_height"),
-}
 _CROWN = ("outside_diameter", "pitch_apex_to_crown")
 _STEEP = 0.5  # addendum or dedendum per cone distance at the heel; more is a slip
 
@@ -48,13 +45,16 @@ def sheet_rules(document: Document) -> Iterator[Problem]:
         yield Problem("wheel.hand", shown(hands[1]), expected, f'hand = "{other}"')
     for member in MEMBERS:
         yield from _blank(document, member)
-        yield from _cutter(document, member)
+        yield from cutter_rules(document, member)
         flanks = [settings_of(document, member, side) for side in SIDES]
         for own in flanks:
             yield from settings_rules(document, own)
-            yield from _blade(document, merged(document, member, own.side, "blade", BladeTable))
+            yield from hobbing_rules(document, own)
+            yield from blade_rules(
+                document, merged(document, member, own.side, "blade", BladeTable)
+            )
         duplex = [method for own in flanks if (method := own.word("method")) in DUPLEX]
-        if duplex:
+        if duplex and not face_hobbed(document, member):
             yield from _both_at_once(document, member, duplex[0])
     for number in table_at(document, "machine.gleason-463.cams"):
         if not re.fullmatch("[1-9][0-9]{0,2}", number):
@@ -158,53 +158,3 @@ def _heel(document: Document, member: str, pitch: float) -> Iterator[Problem]:
     if width is not None and width >= distance:
         expected = f"a face narrower than the outer cone distance of {distance:.5g} mm"
         yield fault("face_width", expected, assigned("face_width", f"{0.3 * distance:.3g} mm"))
-
-
-def _cutter(document: Document, member: str) -> Iterator[Problem]:
-    path = f"{member}.cutter"
-    cutter = table_at(document, path)
-    given = [key for key in ("diameter", "point_width") if key in cutter]
-    if len(given) == 1:
-        other = "point_width" if given == ["diameter"] else "diameter"
-        expected = "diameter and point_width of a spread-blade cutter, or neither"
-        yield Problem(f"{path}.{other}", "nothing", expected, line(CutterTable, other))
-    diameter = number_at(document, f"{path}.diameter", "length")
-    width = number_at(document, f"{path}.point_width", "length")
-    if diameter is not None and width is not None and 0.0 < diameter <= width:
-        expected = f"less than the cutter's diameter of {diameter:g} mm"
-        yield Problem(
-            f"{path}.point_width", shown(cutter["point_width"]), expected, 'point_width = "0.1 in"'
-        )
-
-
-def _blade(document: Document, own: Merged) -> Iterator[Problem]:
-    if "angle" not in own:
-        yield own.wanted("angle", "the blade angle against the cutter's axis")
-    cutter = value_at(document, (own.member, "cutter"))
-    spread = isinstance(cutter, Mapping) and ("diameter" in cutter or "point_width" in cutter)
-    if spread and "point_diameter" in own:
-        why = "the cutter's diameter and point_width say where both blades stand"
-        yield own.unwanted("point_diameter", why)
-    if isinstance(cutter, Mapping) and not spread and "point_diameter" not in own:
-        path = f"{own.member}.{own.side}.blade.point_diameter"
-        expected = f"a length above 0, or diameter and point_width in [{own.member}.cutter]"
-        yield Problem(path, "nothing", expected, line(BladeTable, "point_diameter"))
-    yield from _profile(own)
-    flankrem = own.get("flankrem")
-    if isinstance(flankrem, Mapping) and ("angle" in flankrem) == ("coefficient" in flankrem):
-        yield own.wanted("flankrem", "an angle (straight) or a coefficient (parabola), one of them")
-
-
-def _profile(own: Merged) -> Iterator[Problem]:
-    """The measures that a blade's profile has, and no others."""
-    profile = own.word("profile") or "straight"
-    if profile not in _MEASURES:
-        return  # named already
-    for key in ("radius", "coefficient", "reference_height"):
-        if key in _MEASURES[profile] and key not in own:
-            expected = f'{keys_of(BladeTable)[key].description}; profile = "{profile}" needs it'
-            yield own.wanted(key, expected)
-        if key in own and key not in _MEASURES[profile]:
-            yield own.unwanted(key, f'profile = "{profile}" has no {key}')
-    if profile == "circular-arc" and own.number("radius", "length") == 0.0:
-        yield own.wanted("radius")

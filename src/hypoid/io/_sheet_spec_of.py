@@ -11,17 +11,29 @@ from hypoid.design import (
     BladeSpec,
     FlankSpec,
     MemberSpec,
+    StickBladeSpec,
     SummarySheetSpec,
+    TopremReading,
     cut_apart,
 )
 
+from ._bodies import bodies_of
 from ._defaults import defaults_used
 from ._quantity import parse
+from ._sheet_cutter import BladeTable, TopremTable
 from ._sheet_dials import ROLL_TERMS, plain_roll
-from ._sheet_file import BladeTable, GivenBlankTable, SheetFlank, SheetMember, SummarySheetFile
+from ._sheet_file import GivenBlankTable, SheetFlank, SheetMember, SummarySheetFile
 from ._sheet_settings import DIALS
 
 BACKLASH = 0.15  # mm, normal, at the mean point
+# What the program puts in where the file says nothing of a blade, as the file would write it.
+_BLADE_DEFAULTS = {"edge_radius": "0 mm"}
+_STICK_DEFAULTS = {
+    **_BLADE_DEFAULTS,
+    "eccentric_angle": "0 deg",
+    "hook_angle": "0 deg",
+    "side_rake_angle": "0 deg",
+}
 _BACKLASH = Assumption(
     "pair.normal_backlash",
     f"not given, and flanks cut one by one leave it open; the program's default is {BACKLASH} mm",
@@ -52,6 +64,7 @@ def sheet_spec_of(file: SummarySheetFile) -> SummarySheetSpec:
         marking_thickness=file.contact.marking_thickness,
         normal_backlash=BACKLASH if free else backlash,
         machine_constants=constants,
+        bodies=bodies_of(file),
     )
 
 
@@ -62,6 +75,8 @@ def _member(member: SheetMember) -> MemberSpec:
         blank=_blank(member.blank),
         concave=_flank(member, member.concave, outside=True),
         convex=_flank(member, member.convex, outside=False),
+        blade_groups=member.cutter.blade_groups,
+        spacing=member.cutter.spacing,
     )
 
 
@@ -116,28 +131,47 @@ def _flank(member: SheetMember, flank: SheetFlank, *, outside: bool) -> FlankSpe
     return FlankSpec(method, machine, dials, _blade(member, flank, outside), at_flank)
 
 
-def _blade(member: SheetMember, flank: SheetFlank, outside: bool) -> BladeSpec:
+def _blade(member: SheetMember, flank: SheetFlank, outside: bool) -> BladeSpec | StickBladeSpec:
     own = _blade_keys(member.blade) | _blade_keys(flank.blade)
+    toprem: TopremTable | None = own.get("toprem")
+    common: dict[str, Any] = {
+        "angle": own["angle"],
+        "edge_radius": own.get("edge_radius", 0.0),
+        "height": member.cutter.height,
+        "curve_radius": own.get("radius", 0.0),
+        "reference_height": own.get("reference_height", 0.0),
+    }
+    if member.cutter.blade_groups is not None:
+        return StickBladeSpec(
+            radius=own["blade_radius"],
+            eccentric_angle=own.get("eccentric_angle", 0.0),
+            hook_angle=own.get("hook_angle", 0.0),
+            side_rake_angle=own.get("side_rake_angle", 0.0),
+            toprem=toprem and _stick_toprem(toprem),
+            **common,
+        )
     cutter, land = member.cutter, None
     if cutter.diameter is not None and cutter.point_width is not None:
         land = 0.5 * cutter.point_width
         radius = 0.5 * cutter.diameter + (land if outside else -land)
     else:
         radius = 0.5 * own["point_diameter"]
-    toprem, flankrem = own.get("toprem"), own.get("flankrem")
+    flankrem = own.get("flankrem")
     return BladeSpec(
         point_radius=radius,
-        angle=own["angle"],
-        edge_radius=own.get("edge_radius", 0.0),
         land=land,
-        height=cutter.height,
         curve=own.get("profile", "straight"),
-        curve_radius=own.get("radius", 0.0),
         curve_coefficient=own.get("coefficient", 0.0),
-        reference_height=own.get("reference_height", 0.0),
-        toprem=toprem and (toprem.angle, toprem.height),
+        toprem=toprem and (toprem.angle, toprem.height or 0.0),
         flankrem=flankrem and (flankrem.height, flankrem.angle or 0.0, flankrem.coefficient or 0.0),
+        **common,
     )
+
+
+def _stick_toprem(toprem: TopremTable) -> tuple[float, float, TopremReading]:
+    if toprem.length is None:
+        return toprem.angle, toprem.height or 0.0, "axial"
+    return toprem.angle, toprem.length, toprem.measured or "along-flank"
 
 
 def _blade_keys(blade: BladeTable) -> dict[str, Any]:
@@ -155,8 +189,16 @@ def _put_in(name: str, member: SheetMember) -> Iterator[Assumption]:
         for key, value in defaults.items():
             if key not in given:
                 lacking.setdefault(("settings", key, value), []).append(side)
-        if "edge_radius" not in _blade_keys(member.blade) | _blade_keys(flank.blade):
-            lacking.setdefault(("blade", "edge_radius", "0 mm"), []).append(side)
+        blade, stick = (
+            _blade_keys(member.blade) | _blade_keys(flank.blade),
+            member.cutter.type == "tri-ac",
+        )
+        for key, value in (_STICK_DEFAULTS if stick else _BLADE_DEFAULTS).items():
+            if key not in blade:
+                lacking.setdefault(("blade", key, value), []).append(side)
+    if member.cutter.blade_groups is not None and member.cutter.spacing is None:
+        even = f"{180 / member.cutter.blade_groups:.6g} deg"
+        yield Assumption(f"{name}.cutter.spacing", f"not given; blades spaced evenly, {even}")
     for (table, key, value), sides in lacking.items():
         for where in [name] if len(sides) == 2 else [f"{name}.{side}" for side in sides]:
             reason = f"not given; the program's default is {value}"

@@ -6,8 +6,14 @@ from collections.abc import Mapping
 
 from hypoid.design import Assumption, ExactFaceHobbedSpec, SettingValue, TipRelief
 
+from ._bodies import bodies_of
 from ._defaults import defaults_used
 from ._design_file import DesignFile, Relief, Settings
+
+OUTER_SHARE = 0.5
+_SHARED = Assumption(
+    "cutting.outer_share", f"not given; the program's default is {OUTER_SHARE:g}: evenly"
+)
 
 
 def spec_of(file: DesignFile) -> ExactFaceHobbedSpec:
@@ -27,6 +33,7 @@ def spec_of(file: DesignFile) -> ExactFaceHobbedSpec:
         assumed=(
             *(Assumption(a.value, a.reason) for a in file.assumed),
             *defaults_used(with_defaults),
+            *([_SHARED] if cutting.eccentricity and cutting.outer_share is None else []),
         ),
         shaft_angle=pair.shaft_angle,
         offset=pair.offset,
@@ -45,7 +52,10 @@ def spec_of(file: DesignFile) -> ExactFaceHobbedSpec:
         tip_edge_radius_factor=cutting.tip_edge_radius_factor,
         tip_relief=_relief(cutting.tip_relief),
         marking_thickness=file.contact.marking_thickness,
+        eccentricity=cutting.eccentricity or 0.0,
+        outer_share=OUTER_SHARE if cutting.outer_share is None else cutting.outer_share,
         setting_changes=_setting_changes(file),
+        bodies=bodies_of(file),
     )
 
 

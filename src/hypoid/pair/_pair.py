@@ -26,6 +26,8 @@ class Member:
     convex: Flank
     # Turn that puts the convex flank into its slot, rad (left hand): zero where one setting cuts both.
     stock_turn: float = 0.0
+    bore: float | None = None  # radius, mm, where the design gives it
+    mounting_distance: float | None = None  # mm, crossing point to back face
 
     @cached_property
     def tooth(self) -> Tooth:
@@ -91,15 +93,23 @@ class GearPair:
     @property
     def faults(self) -> tuple[str, ...]:
         """What is wrong with the pair before its flanks meet: its blank, and undercut."""
-        undercut = (
-            f"The {flank.name} flank is undercut or cannot be generated between toe and heel; "
-            "raise the pressure angle, lower the dedendum or use more teeth."
-            for flank in self.flanks()
-            if not flank.generated
-        )
+        undercut = (_undercut(flank) for flank in self.flanks() if not flank.generated)
         return (*(fault.value for fault in self.blank.faults), *undercut)
 
     def flanks(self) -> Iterator[Flank]:
         for member in (self.pinion, self.wheel):
             yield member.concave
             yield member.convex
+
+
+def _undercut(flank: Flank) -> str:
+    if flank.cut_away == ("toprem",):
+        return (
+            f"The {flank.name} flank is undercut: somewhere between toe and heel its Toprem is cut away "
+            "and the fillet meets the flank; see the tooth's sections, or use a shorter Toprem, "
+            "a smaller dedendum or a greater pressure angle."
+        )
+    return (
+        f"The {flank.name} flank is undercut or cannot be generated between toe and heel; "
+        "raise the pressure angle, lower the dedendum or use more teeth."
+    )

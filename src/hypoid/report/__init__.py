@@ -12,16 +12,18 @@ from ._progress import terminal_progress as terminal_progress
 if TYPE_CHECKING:
     from ._figures_inspect import correction_image as correction_image
     from ._figures_inspect import topography_image as topography_image
+    from ._figures_tooth import tooth_figure as tooth_figure
     from ._report import ReportSummary as ReportSummary
     from ._report import report_html as report_html
     from ._report import write_report as write_report
+    from ._style import look as look
 
 _LAZY = {
+    **dict.fromkeys(("ReportSummary", "report_html", "write_report"), "_report"),
+    "look": "_style",
+    "tooth_figure": "_figures_tooth",
     "correction_image": "_figures_inspect",
     "topography_image": "_figures_inspect",
-    "ReportSummary": "_report",
-    "report_html": "_report",
-    "write_report": "_report",
 }
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from hypoid.cutter import FaceHobHead
+from hypoid.cutter import CycloPalloidHead, FaceHobHead
 from hypoid.pair import GearPair
 
 from ._figures_blank import blank_figure
@@ -23,7 +23,7 @@ from ._figures_contact import (
     pattern_figure,
 )
 from ._figures_cutter import cutter_figure
-from ._figures_mill import mill_figure
+from ._figures_mill import blades_figure
 from ._figures_tooth import tooth_figure, tooth_notes, tooth_rows
 from ._page import box, drawing, note, page
 from ._progress import Progress, silent
@@ -140,12 +140,19 @@ def _heel_note(pair: GearPair) -> str:
 
 
 def _cutter(pair: GearPair) -> str:
-    pinion, wheel = pair.pinion.head, pair.wheel.head
+    heads = pair.pinion.head, pair.wheel.head
+    pinion, wheel = (h.head if isinstance(h, CycloPalloidHead) else h for h in heads)
     if isinstance(pinion, FaceHobHead) and isinstance(wheel, FaceHobHead):
         words = "Face-hob head and blade profiles; flat land, edge arc, straight edge, relief."
+        if isinstance(heads[0], CycloPalloidHead):
+            words += (
+                f" The axes of outer and inner blades stand {heads[0].eccentricity:g} mm apart."
+            )
         return drawing(to_svg(cutter_figure(pinion, wheel)), words)
-    words = "Face-mill blades in the plane of the cutter axis, tips up; orange: edge arc."
-    return drawing(to_svg(mill_figure(pair)), words)
+    words = (
+        "Blades in the plane of the cutter axis, tips up; orange: edge arc; red: Toprem, Flankrem."
+    )
+    return drawing(to_svg(blades_figure(pair)), words)
 
 
 def _findings(found: Results) -> str:

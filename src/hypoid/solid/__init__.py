@@ -6,6 +6,7 @@ Names that need SciPy are loaded when first asked for.
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from ._body import RIM as RIM
 from ._body import Body as Body
 from ._body import body as body
 from ._mesh import STEEL as STEEL

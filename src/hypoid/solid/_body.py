@@ -40,7 +40,12 @@ class Body:
 
 
 def body(member: Member, bore: float | None = None, back: float | None = None) -> Body:
-    """The ring of a member: by its bore radius and back face's z (mm), else with a rim of 1.5 whole depths."""
+    """The ring of a member by its bore radius and back face's z (mm).
+
+    What is not given is the design's, and where that has none, it leaves a rim of 1.5 whole depths.
+    """
+    bore = member.bore if bore is None else bore
+    back = member.mounting_distance if back is None else back
     flank, blank = member.concave, member.blank
     lines = [member.flank(side).root for side in ("concave", "convex")]
     depth = blank.outer_addendum + blank.outer_dedendum

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import inf
 from typing import Any
 
@@ -39,14 +40,21 @@ def ring_problems(
     if teeth is not None and not 1 <= teeth <= member.teeth:
         expected = f"1 to {member.teeth} teeth of the {member.name}"
         problems.append(Problem("teeth", str(teeth), expected, "1"))
-    usual, most = body(member), largest_bore(member)
+    own = replace(member, bore=None, mounting_distance=None)
+    usual, most = body(own), largest_bore(own)
     if bore is not None and not 0.0 < bore < most:
         expected = f"a radius between 0 and {most:.4g} mm for the {member.name}"
         problems.append(Problem("bore", f"{bore:g} mm", expected, f"{usual.bore:.3g} mm"))
+    elif bore is None and member.bore is not None and not 0.0 < member.bore < most:
+        expected = f"a diameter between 0 and {2.0 * most:.4g} mm: the slots end there"
+        path, example = f"{member.name}.body.bore_diameter", f'"{2.0 * usual.bore:.3g} mm"'
+        problems.append(Problem(path, f"{2.0 * member.bore:g} mm", expected, example))
     least = max(usual.toe_base[0], usual.heel_base[0])
-    if back is not None and not least < back < inf:
+    asked = member.mounting_distance if back is None else back
+    if asked is not None and not least < asked < inf:
+        path = "back" if back is not None else f"{member.name}.body.mounting_distance"
         expected = f"z beyond {least:.6g} mm, where the {member.name}'s teeth end"
-        problems.append(Problem("back", f"{back:g} mm", expected, f"{usual.back:.4g} mm"))
+        problems.append(Problem(path, f"{asked:g} mm", expected, f'"{usual.back:.4g} mm"'))
     if teeth is not None and 1 <= teeth < member.teeth and usual.heel_base[0] <= usual.toe_base[0]:
         given = f"{teeth} teeth of a {member.name} whose root cone opens towards its back"
         expected = f"all {member.teeth} teeth: between two slots such a body has no sides"

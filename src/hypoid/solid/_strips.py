@@ -20,7 +20,9 @@ from scipy.optimize import brentq
 
 from hypoid.flank import SIDES, Flank, Side, Tooth
 
-from ._pieces import ORDER, Merged, Piece, pieces, rise
+from ._borders import rise
+from ._pieces import ORDER, Merged, Piece, pieces
+from ._vanishing import NARROW, width
 
 Array = np.ndarray[Any, Any]
 Points = Callable[[Array, Array], tuple[Array, Array]]
@@ -81,6 +83,8 @@ def _stations(tooth: Tooth, turns: dict[str, float]) -> tuple[list[float], list[
     for cut in (tooth.flank(side) for side in SIDES):
         if not cut.generated:
             changes += _changes(cut, partial(rise, cut))
+            for least in (0.0, NARROW):
+                changes += _changes(cut, lambda d, c=cut, w=least: width(c, d) - w)
     changes = [
         d for k, d in enumerate(sorted(changes)) if not k or d > sorted(changes)[k - 1] + NEAR
     ]
@@ -90,16 +94,15 @@ def _stations(tooth: Tooth, turns: dict[str, float]) -> tuple[list[float], list[
 
 
 def _changes(flank: Flank, value: Callable[[Array], Array]) -> list[float]:
-    """Cone distances at which a value along the face changes sign."""
+    """Cone distances at which a value along the face passes nought; where it jumps, it does not."""
     at = np.linspace(flank.toe, flank.heel, SCAN)
     signs = value(at) > 0.0
 
     def nought(low: float, high: float) -> Any:
         return brentq(lambda d: float(value(np.array([d]))[0]), low, high, xtol=1e-12)
 
-    return [
-        float(nought(at[k], at[k + 1])) for k in np.flatnonzero(signs[:-1] != signs[1:]).tolist()
-    ]
+    found = [nought(at[k], at[k + 1]) for k in np.flatnonzero(signs[:-1] != signs[1:]).tolist()]
+    return [float(d) for d in found if abs(float(value(np.array([d]))[0])) < NEAR]
 
 
 def _span(
