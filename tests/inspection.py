@@ -10,7 +10,7 @@ from hypoid.inspect import MeasuringGrid, Response, Setup, measuring_grid, setup
 from hypoid.io import example_files, read_spec
 from hypoid.pair import GearPair
 
-NAMES = ("gonzalez-fuentes-2022", "lin-tsay-fong-1996", "tsay-lin-1993")
+NAMES = ("gonzalez-fuentes-2022", "lin-tsay-fong-1996", "tsay-lin-1993", "vimercati-piazza-2005")
 MEMBERS = ("pinion", "wheel")
 EVERY = [(name, member) for name in NAMES for member in MEMBERS]
 

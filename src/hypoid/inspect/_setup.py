@@ -12,7 +12,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from hypoid.cutter import EdgePiece, FaceHobHead, FaceMillHead
+from hypoid.cutter import EdgePiece, FaceHobHead, FaceMillHead, TriAcHead
 from hypoid.design import Spec, SummarySheetSpec, machine_named
 from hypoid.flank import SIDES, Flank, Side, recut
 from hypoid.geometry import DesignError, Problem
@@ -30,6 +30,12 @@ from hypoid.pair import GearPair, Member
 Kind = Literal["length", "angle", "ratio", "coefficient"]
 MINUTE, HUNDREDTH = math.radians(1.0 / 60.0), 0.01
 ROLLS = {"ratio_of_roll": "ratio_gears", "helical_motion": "helical_gears"}
+# What each head calls its blades' angle.
+BLADE_ANGLE: dict[type, str] = {
+    FaceMillHead: "angle",
+    FaceHobHead: "pressure_angle",
+    TriAcHead: "blade_angle",
+}
 FREE_BY_DEFAULT = (
     "radial_distance", "eccentric_angle", "cradle_angle", "machine_root_angle", "sliding_base",
     "machine_center_to_back", "blank_offset", "ratio_of_roll", "cam_guide_angle",
@@ -251,25 +257,23 @@ def _machine_adjustments(table: Any, dials: Any, settings: MachineSettings) -> l
 
 def _blade_adjustments(member: Member, side: Side) -> list[Adjustment]:
     head: Any = member.heads[side]
-    if not isinstance(head, FaceMillHead | FaceHobHead):
+    angle = BLADE_ANGLE.get(type(head))
+    if angle is None:
         return []
     blade: Any = getattr(head, "outer" if side == "concave" else "inner")
-    inf = math.inf
-    if isinstance(head, FaceHobHead):
-        value = blade.pressure_angle
-        return [
-            Adjustment(f"{side}.blade_angle", "angle", value, -inf, inf, MINUTE, math.radians(0.1))
-        ]
-    return [
-        Adjustment(f"{side}.blade_angle", "angle", blade.angle, -inf, inf, MINUTE, math.radians(0.1)),
-        Adjustment(f"{side}.point_radius", "length", blade.point_radius, 0.0, inf, HUNDREDTH, 0.2),
-    ]  # fmt: skip
+    reach, inf = math.radians(0.1), math.inf
+    found = [
+        Adjustment(f"{side}.blade_angle", "angle", getattr(blade, angle), -inf, inf, MINUTE, reach)
+    ]
+    if isinstance(head, FaceMillHead):
+        radius = blade.point_radius
+        found.append(Adjustment(f"{side}.point_radius", "length", radius, 0.0, inf, HUNDREDTH, 0.2))
+    return found
 
 
 def _blade_fields(head: Any, steps: Mapping[str, float]) -> dict[str, float]:
     """Steps by the blade's own field names."""
-    angle = "pressure_angle" if isinstance(head, FaceHobHead) else "angle"
-    return {angle if n == "blade_angle" else n: s for n, s in steps.items()}
+    return {BLADE_ANGLE[type(head)] if n == "blade_angle" else n: s for n, s in steps.items()}
 
 
 def _plain(name: str, value: float, angle: bool, reach: float | None = None) -> Adjustment:
