@@ -34,7 +34,7 @@ def test_it_is_the_flank_that_was_measured(bench, name, member):
             assert np.linalg.norm(a.position - b.position, axis=1).max() < 3e-5
             turned = np.degrees(np.linalg.norm(a.normal - b.normal, axis=1)).max() * 3600.0
             assert turned < 15.0  # five rows carry a cubic
-            assert made.left_out < 5e-6
+            assert made.left_out < 1e-5
 
 
 @pytest.mark.parametrize("name", [n for n, m in EVERY if m == "pinion"])
