@@ -9,7 +9,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import cos, pi, sin
 
-from ._cone_solver import LAST_WHEEL_ANGLE, WHEEL_ANGLE_STEPS, ConeInputs, Trial, solve_cones, trial_at
+from ._cone_solver import (
+    LAST_WHEEL_ANGLE,
+    WHEEL_ANGLE_STEPS,
+    ConeInputs,
+    Trial,
+    solve_cones,
+    trial_at,
+)
 from ._pitch_cones import PitchCones
 
 
@@ -43,9 +50,7 @@ class FaceHobbedInputs:
 def alignment(trial: Trial, z2: int, cutter_radius: float, blade_groups: int) -> float:
     """Left side of [gonzalez-fuentes-2022, (2)] over R_m1 R_m2: zero with the centres in line."""
     direction = trial.beta_m1 - trial.slope_angle(z2, cutter_radius, blade_groups)
-    return _alignment(
-        (trial.big_r_m1, trial.big_r_m2), trial.beta_m12, direction, cutter_radius
-    )
+    return _alignment((trial.big_r_m1, trial.big_r_m2), trial.beta_m12, direction, cutter_radius)
 
 
 def solve_aligned_cones(given: FaceHobbedInputs) -> PitchCones | None:
