@@ -6,18 +6,21 @@ from dataclasses import dataclass
 from math import asin, cos, sin, sqrt, tan
 from typing import Literal
 
-from ._blank import PairBlank
+from ._blank import Name, PairBlank
 from ._depths import DepthFactors
 from ._pitch_cones import limit_pressure_angle
 from ._spiral_angles import CrownGearTooth
+
+
+Place = Literal["toe", "heel"]
 
 
 @dataclass(frozen=True)
 class UndercutLimit:
     """Bound of x_hm1 at one end of one member: a least value for the pinion, a greatest for the wheel."""
 
-    member: Literal["pinion", "wheel"]
-    place: Literal["toe", "heel"]
+    member: Name
+    place: Place
     cone_distance: float  # of the member, mm
     limit: float
     profile_shift: float  # x_hm1 of the blank
@@ -34,14 +37,16 @@ def undercut_limits(
 ) -> tuple[UndercutLimit, ...]:
     """Limits at toe and heel of both members; a form-cut wheel cannot be undercut and has none."""
     found: list[UndercutLimit] = []
-    ends = (("toe", blank.pinion.inner_cone_distance), ("heel", blank.pinion.outer_cone_distance))
-    for place, distance in ends:
-        limit = _pinion(blank, factors, tooth, distance)
-        found.append(UndercutLimit("pinion", place, distance, limit, factors.profile_shift))
-    ends = (("toe", blank.wheel.inner_cone_distance), ("heel", blank.wheel.outer_cone_distance))
-    for place, distance in ends if wheel_generated else ():
-        limit = _wheel(blank, factors, tooth, distance)
-        found.append(UndercutLimit("wheel", place, distance, limit, factors.profile_shift))
+    members = (blank.pinion, blank.wheel) if wheel_generated else (blank.pinion,)
+    for member in members:
+        bound = _pinion if member.name == "pinion" else _wheel
+        ends: tuple[tuple[Place, float], ...] = (
+            ("toe", member.inner_cone_distance),
+            ("heel", member.outer_cone_distance),
+        )
+        for place, distance in ends:
+            limit = bound(blank, factors, tooth, distance)
+            found.append(UndercutLimit(member.name, place, distance, limit, factors.profile_shift))
     return tuple(found)
 
 
