@@ -11,7 +11,6 @@ from ._depths import DepthFactors
 from ._pitch_cones import limit_pressure_angle
 from ._spiral_angles import CrownGearTooth
 
-
 Place = Literal["toe", "heel"]
 
 

@@ -17,6 +17,7 @@ from ._deviation import Deviation as Deviation
 from ._deviation import deviation as deviation
 from ._envelope import Surface as Surface
 from ._envelope import axial_radial_angle as axial_radial_angle
+from ._envelope import newton_pair as newton_pair
 from ._envelope import placed as placed
 from ._envelope import position_and_normal as position_and_normal
 from ._envelope import solve_pair as solve_pair

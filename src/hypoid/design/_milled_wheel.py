@@ -1,0 +1,133 @@
+"""The wheel of a face-milled design: cutter, settings and flanks from the blank."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from hypoid.blank import (
+    EdgeRadii,
+    PairBlank,
+    SlotGeometry,
+    crown_gear_tooth,
+    edge_radii,
+    slot_geometry,
+)
+from hypoid.cutter import FaceMillHead
+from hypoid.flank import Border, Flank, PitchCone, Side, best_way, cut_flank
+from hypoid.geometry import DesignError, Problem
+from hypoid.machine import MachineSettings
+
+from ._form_cut import form_cut
+from ._milled_pair import form_turn
+from ._milled_request import MilledRequest
+from ._wheel_settings import WheelCut, wheel_cut
+
+EDGE = 0.3  # of the mean normal module: the edge radius that practice does not pass
+LEAST_POINT = 0.15  # of the mean normal module: a blade's point must stand
+SPARE = 1.6  # times both members' addenda: a blade surely longer than the tooth is deep
+
+
+@dataclass(frozen=True)
+class MilledWheel:
+    """What cuts the wheel, and what it cuts."""
+
+    cut: WheelCut
+    settings: MachineSettings
+    slots: SlotGeometry
+    edges: tuple[EdgeRadii, EdgeRadii]  # largest, pinion and wheel
+    edge_radius: float
+    height: float  # of the blades, mm
+    concave: Flank
+    convex: Flank
+
+    def flank(self, side: Side) -> Flank:
+        return self.concave if side == "concave" else self.convex
+
+
+def pitch_cone(blank: PairBlank, member: str) -> PitchCone:
+    """The pitch cone of a member, as flanks take it."""
+    own = blank.pinion if member == "pinion" else blank.wheel
+    return PitchCone(
+        own.pitch_apex_beyond_crossing_point, math.sin(own.pitch_angle), math.cos(own.pitch_angle)
+    )
+
+
+def milled_wheel(request: MilledRequest, blank: PairBlank) -> MilledWheel:
+    """The wheel of a request on its blank.
+
+    Raises
+    ------
+    DesignError
+        Where the slot leaves no room for a blade.
+    """
+    generated = request.wheel_method == "generated"
+    own, radius = blank.wheel, request.blank.cutter_radius
+    angles, thickness = blank.pressure_angles, own.thickness
+    assert angles is not None
+    assert thickness is not None
+    by_side = angles.coast, angles.drive  # concave, convex
+    if generated:
+        slot = math.pi * blank.mean_normal_module - thickness.mean_normal
+        cut = wheel_cut(
+            own, cutter_radius=radius, slot_width=slot, pressure_angles=by_side, generated=True
+        )
+    else:
+        cut = form_cut(
+            own,
+            cutter_radius=radius,
+            tooth_thickness=thickness.mean_normal,
+            pressure_angles=by_side,
+        )
+    least = LEAST_POINT * blank.mean_normal_module
+    if not cut.point_width > least:
+        expected = (
+            f"a slot that is wider at its root: its point width is {cut.point_width:.3g} mm, at least "
+            f"{least:.3g} mm is wanted; lower the depth or the pressure angle"
+        )
+        given = f"{blank.depths.whole_depth if blank.depths else 0.0:.4g} mm"
+        raise DesignError([Problem("blank.depth_factor", given, expected, "depth_factor = 1.8")])
+    tooth = crown_gear_tooth(blank.cones, radius, 0)
+    slots = slot_geometry(
+        blank, tooth, wheel_generated=generated, wheel_blade_angle=cut.blade_angles[1]
+    )
+    edges = edge_radii(slots)
+    usual = min(EDGE * blank.mean_normal_module, 0.9 * edges[1].largest)
+    edge = usual if request.wheel_edge_radius is None else request.wheel_edge_radius
+    height = SPARE * (blank.pinion.outer_addendum + own.outer_addendum)
+    settings = MachineSettings(
+        radial_distance=cut.radial_distance,
+        cradle_angle=cut.cradle_angle,
+        machine_root_angle=cut.machine_root_angle,
+        ratio_of_roll=cut.ratio_of_roll,
+        roll_to_blade_ratio=0.0,
+        machine_center_to_back=cut.machine_center_to_back,
+        generated=generated,
+    )
+    head = FaceMillHead.spread_blade(
+        2.0 * radius, cut.point_width, *cut.blade_angles, height, edge_radius=max(edge, 0.0)
+    )
+
+    def flank(side: Side) -> Flank:
+        pieces = head.pieces("outer" if side == "concave" else "inner")
+        if not generated:  # theta = 0 where the blade passes the mean point
+            turn = form_turn(settings, own)
+            pieces = {name: piece.turned(turn) for name, piece in pieces.items()}
+        slope = math.tan(own.addendum_angle)
+        return cut_flank(
+            "wheel",
+            side,
+            settings,
+            pieces,
+            pitch_cone(blank, "wheel"),
+            mirrored=own.hand == "right",
+            toe=own.inner_cone_distance,
+            heel=own.outer_cone_distance,
+            tip=Border(own.outer_addendum - slope * own.outer_cone_distance, slope),
+            root=Border(-1.5 * height, 0.0),
+            way=best_way(settings, revolution=True),
+        )
+
+    return MilledWheel(
+        cut, settings, slots, edges, max(edge, 0.0), height, flank("concave"), flank("convex")
+    )

@@ -1,0 +1,249 @@
+"""Settings of one pinion flank: from the wheel's exact conjugate to the method's closest, in stages."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from hypoid.blank import PairBlank
+from hypoid.flank import Side
+from hypoid.machine import MachineSettings
+
+from ._conjugate import conjugate
+from ._fit import CUT, Fit, Look, gauss_newton
+from ._milled_request import MilledRequest
+from ._milled_wheel import MilledWheel, pitch_cone
+from ._pinion_methods import BASE, HEAD, METHODS, blade_wish, step_limits
+from ._pinion_model import UM, PinionModel, Seen, Wish, pinion_model
+from ._settings_model import INDEX, MOTIONS, NAMES, ROLL, settings_of, vector_of
+
+Array = np.ndarray[Any, Any]
+ROOT_SPREAD = 0.01  # mm
+LEADING = math.radians(0.02)  # how firmly tilt is led to zero
+ADVICE = (*HEAD, *ROLL[:3], "helical_motion", "blade_curvature", *MOTIONS)
+
+
+@dataclass(frozen=True)
+class FlankFit:
+    """One pinion flank as fitted; mm and rad."""
+
+    side: Side
+    settings: MachineSettings
+    point_radius: float
+    blade_angle: float
+    vector: Array  # all entries, as `_settings_model.NAMES`
+    free: tuple[str, ...]
+    distance: Array  # (n,) S of the residual map
+    height: Array  # (n,) H
+    residual: Array  # (n,) mm, ease-off less its target; NaN where nothing counts
+    wanted: Array  # (n,) mm, the target ease-off
+    root_error: Array  # (3,) mm, height of the root as cut less the blank's, toe to heel
+    fit: Fit
+    helpful: tuple[tuple[str, float], ...]  # entries not free, and the rms in mm that they promise
+
+    @property
+    def rms(self) -> float:
+        """Root mean square of the residual map, mm."""
+        return float(np.sqrt(np.nanmean(self.residual**2)))
+
+    @property
+    def largest(self) -> float:
+        """Greatest residual either way, mm."""
+        return float(np.nanmax(np.abs(self.residual)))
+
+    @property
+    def undetermined(self) -> tuple[str, ...]:
+        """Directions that the target does not determine, and which were left alone, in words."""
+        values, rows = self.fit.singular_values, self.fit.directions
+        return tuple(
+            ", ".join(
+                f"{self.free[k]} {row[k]:+.2f}"
+                for k in np.argsort(-np.abs(row))[:4]
+                if abs(row[k]) > 0.1
+            )
+            for value, row in zip(values, rows, strict=True)
+            if value <= CUT * values[0]
+        )
+
+
+def conjugate_start(wheel: MilledWheel, blank: PairBlank, side: Side) -> Array:
+    """The vector of the pinion flank that a form-cut wheel flank generates exactly.
+
+    The cutter stands on the wheel cutter's axis and faces it, on a cradle along the wheel's axis; its
+    blade is the wheel's cone [notes on vimercati2005: blades of the opposite kind].
+    """
+    cut, own = wheel.cut, blank.wheel
+    root = cut.machine_root_angle
+    sine, cosine = math.sin(root), math.cos(root)
+    height = cut.depth + own.mean_addendum + (blank.clearance or 0.0)
+    along = cut.radial_distance * math.cos(cut.cradle_angle)
+    x = sine * along + height * cosine
+    y = -cut.radial_distance * math.sin(cut.cradle_angle)
+    z = -(cosine * along - cut.machine_center_to_back) + height * sine
+    q = math.atan2(-y, x)
+    settings = MachineSettings(
+        radial_distance=math.hypot(x, y),
+        cradle_angle=q,
+        machine_root_angle=blank.shaft_angle - 0.5 * math.pi,
+        ratio_of_roll=own.teeth / blank.pinion.teeth,
+        roll_to_blade_ratio=0.0,
+        tilt_angle=0.5 * math.pi - root,
+        swivel_angle=q - 0.5 * math.pi,
+        blank_offset=blank.offset,
+        sliding_base=-z,
+    )
+    i = 1 if side == "concave" else 0  # the pinion's outside blade is the wheel's inside cone
+    angle = cut.blade_angles[i]
+    sign = -1.0 if side == "concave" else 1.0
+    radius = cut.point_radii[i] + sign * height * math.tan(angle)
+    blade = {"point_radius": radius, "blade_angle": angle, "blade_curvature": 0.0}
+    return vector_of(settings, blade)
+
+
+def fit_pinion(
+    request: MilledRequest, blank: PairBlank, wheel: MilledWheel, side: Side
+) -> FlankFit | None:
+    """Settings of a pinion flank for a request; None where there is nothing to start from."""
+    drive = side == "concave"
+    cone = pitch_cone(blank, "pinion")
+    found = conjugate(blank, wheel.flank("convex" if drive else "concave"), cone)
+    start = conjugate_start(wheel, blank, side)
+    if not np.isfinite(found.distance[found.middle]) or not found.there.any():
+        return None
+    target = request.drive if drive else request.coast
+    model = pinion_model(side, found, blank, cone, start, target, (ROOT_SPREAD,) * 3)
+    if model.there.sum() < 10:
+        return None
+    angles = blank.pressure_angles
+    assert angles is not None
+    work = _Work(
+        model,
+        step_limits(blank, start[INDEX["ratio_of_roll"]]),
+        blade_wish(angles.drive if drive else angles.coast),
+    )
+    method = METHODS[request.pinion_method]
+    stage = work.run(start, (*BASE, *HEAD), {}, model.start_memory)
+    if stage is None:
+        return None
+    vector, fit, free = *stage, (*BASE, *HEAD)
+    if method.rest:  # led there by a wish, then kept there
+        lead = {"tilt_angle": Wish(0.0, LEADING)}
+        lead |= {"swivel_angle": Wish(vector[INDEX["swivel_angle"]], math.radians(1.0))}
+        stage = work.run(vector, (*method.free, *HEAD), lead, fit.look.memory, steps=80)
+        if stage is None:
+            return None
+        vector, fit = stage
+        vector = vector.copy()
+        vector[[INDEX[name] for name in method.rest]] = 0.0
+    if method.free != free:
+        wishes = {name: Wish(0.0, spread) for name, spread in method.spreads.items()}
+        stage = work.run(vector, method.free, wishes, fit.look.memory)
+        if stage is None:
+            return None
+        vector, fit = stage
+        free = method.free
+    return _result(work, vector, fit, free)
+
+
+@dataclass(frozen=True)
+class _Work:
+    model: PinionModel
+    limits: Mapping[str, float]
+    wishes: Mapping[str, Wish]
+
+    def look(self, vector: Array, more: Mapping[str, Wish], memory: Any) -> Seen | None:
+        return self.model.look(vector, {**self.wishes, **more}, memory)
+
+    def run(
+        self,
+        vector: Array,
+        free: tuple[str, ...],
+        more: Mapping[str, Wish],
+        memory: Any,
+        steps: int = 60,
+    ) -> tuple[Array, Fit] | None:
+        """One stage: these entries free, with these wishes beside the blade's."""
+        index = [INDEX[name] for name in free]
+
+        def full(x: Array) -> Array:
+            whole = vector.copy()
+            whole[index] = x
+            return whole
+
+        def model(x: Array, memory: Any) -> Look | None:
+            seen = self.look(full(x), more, memory)
+            if seen is None:
+                return None
+            return Look(seen.residual, seen.jacobian[:, index], seen.memory)
+
+        limits = np.array([self.limits[name] for name in free])
+        fit = gauss_newton(model, vector[index], memory, limits, steps=steps)
+        return None if fit is None else (full(fit.x), fit)
+
+
+def _result(work: _Work, vector: Array, fit: Fit, free: tuple[str, ...]) -> FlankFit | None:
+    model = work.model
+    seen = work.look(vector, {}, fit.look.memory)
+    if seen is None:
+        return None
+    count = int(model.there.sum())
+    residual = np.full(len(model.there), np.nan)
+    residual[model.there] = seen.residual[:count] * UM
+    return FlankFit(
+        side=model.side,
+        settings=plain_settings(vector),
+        point_radius=float(vector[INDEX["point_radius"]]),
+        blade_angle=float(vector[INDEX["blade_angle"]]),
+        vector=vector,
+        free=free,
+        distance=model.conjugate.distance,
+        height=model.conjugate.height,
+        residual=residual,
+        wanted=model.wanted,
+        root_error=seen.residual[count : count + 3] * model.root_spread,
+        fit=fit,
+        helpful=_helpful(seen, count, free, work.limits),
+    )
+
+
+def _helpful(
+    seen: Seen, count: int, free: tuple[str, ...], limits: Mapping[str, float]
+) -> tuple[tuple[str, float], ...]:
+    """What one more free entry would leave of the residual, by one linear step, the best first."""
+    scale = np.array([limits[name] for name in NAMES])
+    jacobian = seen.jacobian * scale
+    index = [INDEX[name] for name in free]
+    basis, values, _ = np.linalg.svd(jacobian[:, index], full_matrices=False)
+    basis = basis[:, values > CUT * values[0]]
+
+    def off(v: Array) -> Array:
+        return v - basis @ (basis.T @ v)
+
+    left = off(seen.residual)
+    found: list[tuple[str, float]] = []
+    for name in ADVICE:
+        if name in free:
+            continue
+        column = off(jacobian[:, INDEX[name]])
+        size = float(column @ column)
+        if size < 1e-12:
+            continue
+        rest = left - column * (column @ left) / size
+        found.append((name, float(np.sqrt(np.mean(rest[:count] ** 2)) * UM)))
+    return tuple(sorted(found, key=lambda entry: entry[1])[:3])
+
+
+def plain_settings(vector: Array) -> MachineSettings:
+    """The settings of a vector as plain numbers, with no motion where there is none."""
+    held = settings_of([float(v) for v in vector])
+    moved = held.motions
+    names = type(moved).__dataclass_fields__
+    kept = {n: getattr(moved, n) if any(getattr(moved, n)) else () for n in names}
+    roll = tuple(held.modified_roll)
+    while roll and not roll[-1]:
+        roll = roll[:-1]
+    return replace(held, modified_roll=roll, motions=replace(moved, **kept))
