@@ -200,4 +200,11 @@ def _faults(name: Name, given: GivenBlank) -> list[Problem]:
             f"a face narrower than the outer cone distance of {given.outer_cone_distance:.5g} mm",
             f"{0.3 * given.outer_cone_distance:.3g} mm",
         )
+    elif not 0.0 < given.outer_share < given.face_width:
+        wrong(
+            "outer_face_width",
+            f"{given.outer_share:g} mm",
+            f"less than the face width of {given.face_width:g} mm: the mean point lies on the face",
+            f"{0.5 * given.face_width:.3g} mm",
+        )
     return found

@@ -103,10 +103,10 @@ class SlotGeometry:
         """Wheel dedendum at a wheel cone distance, mm (59), (60): a form cutter's root is a plane's."""
         along = crown - self.mean_cone_distances[1]
         depth = self.dedenda[1] + along * tan(self.dedendum_angles[1])
-        return depth if self.wheel_generated else depth - self._lift(crown)
+        return depth if self.wheel_generated else depth - self.lift(crown)
 
-    def _lift(self, crown: float) -> float:
-        """What a plane root lacks against a cone, mm (57)."""
+    def lift(self, crown: float) -> float:
+        """What the plane root of a form-cut slot lacks against the root cone, mm (57)."""
         tooth = self.tooth
 
         def cradle(distance: float) -> float:

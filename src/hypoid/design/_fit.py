@@ -69,9 +69,10 @@ def gauss_newton(
     seen = model(start, memory)
     if seen is None:
         return None
-    x, settled, count = start, False, 0
+    x, settled, taken = start, False, 0
     best, nearest = x, seen
-    for count in range(1, steps + 1):
+    while taken < steps and not settled:
+        taken += 1
         u, values, rows = np.linalg.svd(seen.jacobian * limits, full_matrices=False)
         kept = values > cut * values[0]
         values, rows, wanted = values[kept], rows[kept], (u.T @ seen.residual)[kept]
@@ -90,11 +91,9 @@ def gauss_newton(
                 x, seen = best, nearest
                 break
             reach *= SHRINK
-        if gain <= tolerance * cost:
-            settled = True
-            break
+        settled = gain <= tolerance * cost
     _, values, rows = np.linalg.svd(seen.jacobian * limits, full_matrices=False)
-    return Fit(x, seen, values, rows, count, settled)
+    return Fit(x, seen, values, rows, taken, settled)
 
 
 def _scaled(values: Array, rows: Array, wanted: Array, reach: float) -> Array:

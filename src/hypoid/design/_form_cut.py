@@ -36,15 +36,15 @@ def form_point(cut: WheelCut, blank: MemberBlank, outside: bool) -> FormPoint:
     side, i = (1.0, 0) if outside else (-1.0, 1)
     radius, alpha = cut.point_radii[i], cut.blade_angles[i]
     sine, cosine = sin(cut.machine_root_angle), cos(cut.machine_root_angle)
-    x0 = cut.radial_distance * cos(cut.cradle_angle)
+    x0, back = cut.radial_distance * cos(cut.cradle_angle), cut.machine_center_to_back
     y0 = -cut.radial_distance * sin(cut.cradle_angle)
 
-    def member(v: Vector, back: float) -> Vector:
-        return sine * v[0] - cosine * v[2], v[1], cosine * v[0] + sine * v[2] - back
+    def member(v: Vector, withdrawn: float) -> Vector:
+        return sine * v[0] - cosine * v[2], v[1], cosine * v[0] + sine * v[2] - withdrawn
 
     def surface(u: float, t: float) -> tuple[Vector, Vector, Vector]:
         r, c, s = radius + side * u * sin(alpha), cos(t), sin(t)
-        point = member((x0 + r * c, y0 + r * s, -u * cos(alpha)), cut.machine_center_to_back)
+        point = member((x0 + r * c, y0 + r * s, cut.deeper - u * cos(alpha)), back)
         by_u = member((side * sin(alpha) * c, side * sin(alpha) * s, -cos(alpha)), 0.0)
         return point, by_u, member((-r * s, r * c, 0.0), 0.0)
 
@@ -57,7 +57,7 @@ def form_point(cut: WheelCut, blank: MemberBlank, outside: bool) -> FormPoint:
     along, depth = cut.radial_distance * cos(cut.cradle_angle), cut.depth
     z, rho = blank.position(blank.mean_cone_distance, 0.0)
     u = depth / cos(alpha)
-    t = atan2(-y0, sine * rho + cosine * (z + cut.machine_center_to_back) - along)
+    t = atan2(-y0, sine * rho + cosine * (z + back) - along)
     for _ in range(NEWTON):
         p, by_u, by_t = surface(u, t)
         rho = hypot(p[0], p[1])
@@ -84,6 +84,7 @@ def form_cut(
     cutter_radius: float,
     tooth_thickness: float,
     pressure_angles: tuple[float, float],
+    deeper: float = 0.0,
 ) -> WheelCut:
     """Formate wheel whose flanks have the blank's angles and its tooth (s_mn, mm) at the mean point.
 
@@ -101,6 +102,7 @@ def form_cut(
             pressure_angles=(float(x[0]), float(x[1])),
             generated=False,
             spiral_angle=float(x[2]),
+            deeper=deeper,
         )
 
     def seen(x: np.ndarray) -> np.ndarray:

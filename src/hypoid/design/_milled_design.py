@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import sin
 from typing import Any
 
 from hypoid.blank import (
@@ -21,7 +22,7 @@ from hypoid.machine import MachineSettings, to_sheet
 
 from ._member_blanks import given_blank
 from ._milled_request import MilledRequest
-from ._milled_wheel import EDGE, MilledWheel, milled_wheel
+from ._milled_wheel import EDGE, ROOM, MilledWheel, milled_wheel
 from ._pinion_fit import FlankFit, fit_pinion
 from ._sheet_spec import BladeSpec, FlankSpec, MemberSpec, Method, SummarySheetSpec
 
@@ -124,19 +125,17 @@ def _spec(
     cut, land = wheel.cut, 0.5 * wheel.cut.point_width
     edge = request.pinion_edge_radius
     if edge is None:
-        edge = min(EDGE * blank.mean_normal_module, 0.9 * wheel.edges[0].largest)
+        edge = _pinion_edge(blank, wheel, fits)
 
     def wheel_flank(side: Side) -> FlankSpec:
         i = 0 if side == "concave" else 1
-        blade = BladeSpec(
-            cut.point_radii[i], cut.blade_angles[i], wheel.edge_radius, land, height=wheel.height
-        )
+        blade = BladeSpec(cut.point_radii[i], cut.blade_angles[i], wheel.edge_radius, land)
         dials = _dials(wheel.settings, blank.wheel.pitch_apex_beyond_crossing_point)
         return FlankSpec(request.wheel_method, "basic", dials, blade, _AT_WHEEL)
 
     def pinion_flank(side: Side) -> FlankSpec:
         fit = fits[side]
-        blade = BladeSpec(fit.point_radius, fit.blade_angle, max(edge, 0.0))
+        blade = BladeSpec(fit.point_radius, fit.blade_angle, edge)
         dials = _dials(fit.settings, blank.pinion.pitch_apex_beyond_crossing_point)
         method = SHEET_METHODS[request.pinion_method]
         at_flank = frozenset(f"settings.{name}" for name in dials) | _AT_PINION
@@ -158,13 +157,22 @@ def _spec(
         wheel=MemberSpec(
             blank.wheel.teeth,
             blank.wheel.hand,
-            given_blank(blank.wheel),
+            given_blank(blank.wheel, wheel.cut.deeper),
             wheel_flank("concave"),
             wheel_flank("convex"),
         ),
         marking_thickness=request.marking_thickness,
         normal_backlash=request.normal_backlash,
     )
+
+
+def _pinion_edge(blank: PairBlank, wheel: MilledWheel, fits: Mapping[Side, FlankFit]) -> float:
+    """Edge radius of the pinion's blades, mm: its arc ends below where the wheel's tip comes by."""
+    usual = min(EDGE * blank.mean_normal_module, 0.9 * wheel.edges[0].largest)
+    for fit in fits.values():
+        room = ROOM * (blank.clearance or 0.0) - max(0.0, float(fit.root_error.max()))
+        usual = min(usual, room / (1.0 - sin(fit.blade_angle)))
+    return max(usual, 0.0)
 
 
 _AT_WHEEL = frozenset({"blade.angle"})

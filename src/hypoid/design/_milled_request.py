@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 from hypoid.blank import BlankRequest
@@ -29,8 +29,8 @@ class MilledRequest:
     blank: BlankRequest
     wheel_method: WheelMethod = "formate"
     pinion_method: PinionMethod = "tilt"
-    drive: Target = EaseOffTarget()
-    coast: Target = EaseOffTarget()
+    drive: Target = field(default_factory=EaseOffTarget)
+    coast: Target = field(default_factory=EaseOffTarget)
     tolerance: float = 0.005
     wheel_edge_radius: float | None = None  # None: what AGMA 929 leaves, up to 0.3 modules
     pinion_edge_radius: float | None = None

@@ -24,6 +24,8 @@ from ._milled_request import MilledRequest
 from ._wheel_settings import WheelCut, wheel_cut
 
 EDGE = 0.3  # of the mean normal module: the edge radius that practice does not pass
+ROOM = 0.7  # of the clearance, that an edge arc may take
+LEAST_EDGE = 0.15  # of the mean normal module: rather than a sharper edge a form cutter cuts deeper
 LEAST_POINT = 0.15  # of the mean normal module: a blade's point must stand
 SPARE = 1.6  # times both members' addenda: a blade surely longer than the tooth is deep
 
@@ -67,6 +69,17 @@ def milled_wheel(request: MilledRequest, blank: PairBlank) -> MilledWheel:
     assert angles is not None
     assert thickness is not None
     by_side = angles.coast, angles.drive  # concave, convex
+    tooth = crown_gear_tooth(blank.cones, radius, 0)
+    slots = slot_geometry(blank, tooth, wheel_generated=generated)
+    edges = edge_radii(slots)
+    edge = min(EDGE * blank.mean_normal_module, 0.9 * edges[1].largest)
+    arc = 1.0 - math.sin(min(by_side))  # height of an edge arc over its radius
+    lift = 0.0 if generated else max(slots.lift(crown) for crown in slots.ends[1])
+    room = ROOM * (blank.clearance or 0.0)
+    deeper = min(max(lift + LEAST_EDGE * blank.mean_normal_module * arc - room, 0.0), lift)
+    edge = max(min(edge, (room - lift + deeper) / arc), 0.0)
+    if request.wheel_edge_radius is not None:
+        edge = request.wheel_edge_radius
     if generated:
         slot = math.pi * blank.mean_normal_module - thickness.mean_normal
         cut = wheel_cut(
@@ -78,6 +91,7 @@ def milled_wheel(request: MilledRequest, blank: PairBlank) -> MilledWheel:
             cutter_radius=radius,
             tooth_thickness=thickness.mean_normal,
             pressure_angles=by_side,
+            deeper=deeper,
         )
     least = LEAST_POINT * blank.mean_normal_module
     if not cut.point_width > least:
@@ -87,13 +101,6 @@ def milled_wheel(request: MilledRequest, blank: PairBlank) -> MilledWheel:
         )
         given = f"{blank.depths.whole_depth if blank.depths else 0.0:.4g} mm"
         raise DesignError([Problem("blank.depth_factor", given, expected, "depth_factor = 1.8")])
-    tooth = crown_gear_tooth(blank.cones, radius, 0)
-    slots = slot_geometry(
-        blank, tooth, wheel_generated=generated, wheel_blade_angle=cut.blade_angles[1]
-    )
-    edges = edge_radii(slots)
-    usual = min(EDGE * blank.mean_normal_module, 0.9 * edges[1].largest)
-    edge = usual if request.wheel_edge_radius is None else request.wheel_edge_radius
     height = SPARE * (blank.pinion.outer_addendum + own.outer_addendum)
     settings = MachineSettings(
         radial_distance=cut.radial_distance,
@@ -102,10 +109,11 @@ def milled_wheel(request: MilledRequest, blank: PairBlank) -> MilledWheel:
         ratio_of_roll=cut.ratio_of_roll,
         roll_to_blade_ratio=0.0,
         machine_center_to_back=cut.machine_center_to_back,
+        sliding_base=-cut.deeper,
         generated=generated,
     )
     head = FaceMillHead.spread_blade(
-        2.0 * radius, cut.point_width, *cut.blade_angles, height, edge_radius=max(edge, 0.0)
+        2.0 * radius, cut.point_width, *cut.blade_angles, height, edge_radius=edge
     )
 
     def flank(side: Side) -> Flank:
@@ -128,6 +136,4 @@ def milled_wheel(request: MilledRequest, blank: PairBlank) -> MilledWheel:
             way=best_way(settings, revolution=True),
         )
 
-    return MilledWheel(
-        cut, settings, slots, edges, max(edge, 0.0), height, flank("concave"), flank("convex")
-    )
+    return MilledWheel(cut, settings, slots, edges, edge, height, flank("concave"), flank("convex"))

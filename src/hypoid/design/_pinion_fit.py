@@ -81,9 +81,9 @@ def conjugate_start(wheel: MilledWheel, blank: PairBlank, side: Side) -> Array:
     sine, cosine = math.sin(root), math.cos(root)
     height = cut.depth + own.mean_addendum + (blank.clearance or 0.0)
     along = cut.radial_distance * math.cos(cut.cradle_angle)
-    x = sine * along + height * cosine
+    x = sine * along - cosine * cut.deeper + height * cosine
     y = -cut.radial_distance * math.sin(cut.cradle_angle)
-    z = -(cosine * along - cut.machine_center_to_back) + height * sine
+    z = height * sine - (cosine * along + sine * cut.deeper - cut.machine_center_to_back)
     q = math.atan2(-y, x)
     settings = MachineSettings(
         radial_distance=math.hypot(x, y),

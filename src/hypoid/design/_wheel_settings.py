@@ -27,6 +27,7 @@ class WheelCut:
     blade_angles: tuple[float, float]
     point_width: float
     depth: float  # of the tips below the mean point, square to the root line, mm
+    deeper: float = 0.0  # of the tips below the blank's root cone there, mm
 
 
 def wheel_cut(
@@ -37,6 +38,7 @@ def wheel_cut(
     pressure_angles: tuple[float, float],
     generated: bool,
     spiral_angle: float | None = None,
+    deeper: float = 0.0,
 ) -> WheelCut:
     """Cutter and settings of a wheel.
 
@@ -52,12 +54,14 @@ def wheel_cut(
         Rolled with a crown gear in the root plane, or form cut (Formate).
     spiral_angle
         Of the middle of the slot at the mean point, rad; None: the blank's.
+    deeper
+        How much deeper than the blank's root cone the tips run, mm.
     """
     root, taper = blank.root_angle, blank.dedendum_angle
     z, rho = blank.position(blank.mean_cone_distance, 0.0)
     back = blank.root_apex_beyond_crossing_point
     along = sin(root) * rho + cos(root) * (z + back)
-    depth = cos(root) * rho - sin(root) * (z + back)
+    depth = cos(root) * rho - sin(root) * (z + back) + deeper
     asked = blank.mean_spiral_angle if spiral_angle is None else spiral_angle
     beta = atan(tan(asked) / cos(taper))  # in the root plane
     across, along_centre = cutter_radius * cos(beta), along - cutter_radius * sin(beta)
@@ -77,4 +81,5 @@ def wheel_cut(
         blade_angles=(outside, inside),
         point_width=width,
         depth=depth,
+        deeper=deeper,
     )
