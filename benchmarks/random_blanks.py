@@ -85,9 +85,10 @@ def draw(number: int, random: np.random.Generator) -> Draw:
         hobbed = bool(random.random() < 0.2) and spiral > radians(15.0)
         method = 0 if not share else int(random.choice([1, 1, 2, 3]))
         cutter = float(random.uniform(0.75, 1.25)) * (cone - 0.5 * face)
-        taper = str(random.choice(["standard", "uniform", "modified", "duplex"]))
+        taper = str(random.choice(["standard", "uniform", "modified"]))
+        wheel = "formate" if ratio > 2.5 and random.random() < 0.6 else "generated"
         return Draw(
-            number, hobbed, str(random.choice(["formate", "generated"])), str(random.choice(PINIONS)),
+            number, hobbed, wheel, str(random.choice(PINIONS)),
             method, z1, z2, module, sigma, offset, spiral, cutter, face, taper,
         )  # fmt: skip
 

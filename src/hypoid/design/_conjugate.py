@@ -29,6 +29,7 @@ from hypoid.machine import (
 
 Array = np.ndarray[Any, Any]
 COLUMNS, ROWS = 13, 7
+FOLDING = 0.05  # of the grid's sense at the mean point: nearer to a fold nothing counts
 INSET = 0.02  # of face width and depth: the grid stays off the wheel's outline
 
 
@@ -107,9 +108,19 @@ def conjugate(blank: PairBlank, wheel: Flank, pinion_cone: PitchCone) -> Conjuga
     there &= cone_height < tip
     off = np.hypot(cone_distance - own.mean_cone_distance, cone_height)
     middle = int(np.argmin(np.where(there, off, np.inf)))
+    there &= _unfolded(cone_distance, cone_height, middle)
     return Conjugate(
         z, rho, angle, lever, cone_distance, cone_height, roll, position, there, middle
     )
+
+
+def _unfolded(distance: Array, height: Array, middle: int) -> Array:
+    """Where the wheel's grid lies on the pinion in one sense: beyond, the conjugate is undercut."""
+    shape = (ROWS, COLUMNS)
+    along = [np.gradient(v.reshape(shape), axis=1) for v in (distance, height)]
+    across = [np.gradient(v.reshape(shape), axis=0) for v in (distance, height)]
+    sense = (along[0] * across[1] - along[1] * across[0]).ravel()
+    return sense / sense[middle] > FOLDING
 
 
 def _tangents(normal: Array) -> tuple[Array, Array]:

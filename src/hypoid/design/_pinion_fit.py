@@ -17,12 +17,14 @@ from ._conjugate import conjugate
 from ._fit import CUT, Fit, Look, gauss_newton
 from ._milled_request import MilledRequest
 from ._milled_wheel import MilledWheel, pitch_cone
-from ._pinion_methods import BASE, HEAD, METHODS, blade_wish, step_limits
-from ._pinion_model import UM, PinionModel, Seen, Wish, pinion_model
+from ._pinion_methods import BASE, HEAD, METHODS, Freedom, blade_wish, step_limits
+from ._pinion_model import UM, PinionModel, Seen, Wish, lead_of, pinion_model
 from ._settings_model import INDEX, MOTIONS, NAMES, ROLL, settings_of, vector_of
+from ._wheel_settings import wheel_cut
 
 Array = np.ndarray[Any, Any]
 ROOT_SPREAD = 0.01  # mm
+FEWEST = 20  # points of the conjugate that a fit needs
 LEADING = math.radians(0.02)  # how firmly tilt is led to zero
 ADVICE = (*HEAD, *ROLL[:3], "helical_motion", "blade_curvature", *MOTIONS)
 
@@ -104,32 +106,99 @@ def conjugate_start(wheel: MilledWheel, blank: PairBlank, side: Side) -> Array:
     return vector_of(settings, blade)
 
 
+def plain_start(request: MilledRequest, blank: PairBlank, side: Side) -> Array:
+    """The vector of a pinion flank that a crown gear in its root plane generates, as a bevel pinion's.
+
+    It has the blank's root, and its pressure and spiral angle at the mean point; no tilt.
+    """
+    own, angles = blank.pinion, blank.pressure_angles
+    assert angles is not None
+    cut = wheel_cut(
+        own,
+        cutter_radius=request.blank.cutter_radius,
+        slot_width=0.5 * math.pi * blank.mean_normal_module,
+        pressure_angles=(angles.drive, angles.coast),
+        generated=True,
+    )
+    settings = MachineSettings(
+        radial_distance=cut.radial_distance,
+        cradle_angle=cut.cradle_angle,
+        machine_root_angle=cut.machine_root_angle,
+        ratio_of_roll=cut.ratio_of_roll,
+        roll_to_blade_ratio=0.0,
+        swivel_angle=cut.cradle_angle - 0.5 * math.pi,
+        machine_center_to_back=cut.machine_center_to_back,
+    )
+    i = 0 if side == "concave" else 1
+    blade = {"point_radius": cut.point_radii[i], "blade_angle": cut.blade_angles[i]}
+    return vector_of(settings, blade | {"blade_curvature": 0.0})
+
+
 def fit_pinion(
     request: MilledRequest, blank: PairBlank, wheel: MilledWheel, side: Side
 ) -> FlankFit | None:
-    """Settings of a pinion flank for a request; None where there is nothing to start from."""
+    """Settings of a pinion flank for a request; None where there is nothing to start from.
+
+    From the plain start for a generated wheel, from the exact conjugate for a form-cut one; where that
+    does not reach the target, from the other, too.
+    """
     drive = side == "concave"
     cone = pitch_cone(blank, "pinion")
     found = conjugate(blank, wheel.flank("convex" if drive else "concave"), cone)
-    start = conjugate_start(wheel, blank, side)
-    if not np.isfinite(found.distance[found.middle]) or not found.there.any():
+    if found.there.sum() < FEWEST:
         return None
     target = request.drive if drive else request.coast
-    model = pinion_model(side, found, blank, cone, start, target, (ROOT_SPREAD,) * 3)
-    if model.there.sum() < 10:
-        return None
     angles = blank.pressure_angles
     assert angles is not None
-    work = _Work(
-        model,
-        step_limits(blank, start[INDEX["ratio_of_roll"]]),
-        blade_wish(angles.drive if drive else angles.coast),
-    )
+    wish = blade_wish(angles.drive if drive else angles.coast)
+
+    def work(start: Array, lead: Array, roll: Array) -> _Work:
+        spread = (ROOT_SPREAD,) * 3
+        model = pinion_model(side, found, blank, cone, start, lead, roll, target, spread)
+        return _Work(model, step_limits(blank, start[INDEX["ratio_of_roll"]]), wish)
+
     method = METHODS[request.pinion_method]
-    stage = work.run(start, (*BASE, *HEAD), {}, model.start_memory)
+
+    def from_plain() -> FlankFit | None:
+        start = plain_start(request, blank, side)
+        along = found.distance - blank.pinion.mean_cone_distance
+        depth = blank.pinion.mean_dedendum + along * math.tan(blank.pinion.dedendum_angle)
+        lead = (found.height + depth) / math.cos(start[INDEX["blade_angle"]])
+        return _from_plain(work(start, lead, np.zeros(len(lead))), start, method)
+
+    def from_conjugate() -> FlankFit | None:
+        start = conjugate_start(wheel, blank, side)
+        return _from_conjugate(work(start, lead_of(found, start), found.roll), start, method)
+
+    best: FlankFit | None = None
+    starts = (from_plain, from_conjugate)
+    for begin in starts if request.wheel_method == "generated" else starts[::-1]:
+        fit = begin()
+        if best is None or (fit is not None and fit.fit.cost < best.fit.cost):
+            best = fit
+        if best is not None and best.largest <= request.tolerance:
+            break
+    return best
+
+
+def _from_plain(work: _Work, start: Array, method: Freedom) -> FlankFit | None:
+    """The method's entries free at once, tilt resting where it starts or is not free."""
+    if work.model.there.sum() < FEWEST:
+        return None
+    first = tuple(name for name in method.free if name in (*BASE, *HEAD))
+    stage = work.run(start, first, {}, work.model.start_memory)
+    return None if stage is None else _finished(work, *stage, first, method)
+
+
+def _from_conjugate(work: _Work, start: Array, method: Freedom) -> FlankFit | None:
+    """Tilt and swivel free; then, where the method has none, led to zero and kept there."""
+    if work.model.there.sum() < FEWEST:
+        return None
+    free = (*BASE, *HEAD)
+    stage = work.run(start, free, {}, work.model.start_memory)
     if stage is None:
         return None
-    vector, fit, free = *stage, (*BASE, *HEAD)
+    vector, fit = stage
     if method.rest:  # led there by a wish, then kept there
         lead = {"tilt_angle": Wish(0.0, LEADING)}
         lead |= {"swivel_angle": Wish(vector[INDEX["swivel_angle"]], math.radians(1.0))}
@@ -139,14 +208,21 @@ def fit_pinion(
         vector, fit = stage
         vector = vector.copy()
         vector[[INDEX[name] for name in method.rest]] = 0.0
-    if method.free != free:
+        free = ()
+    return _finished(work, vector, fit, free, method)
+
+
+def _finished(
+    work: _Work, vector: Array, fit: Fit, free: tuple[str, ...], method: Freedom
+) -> FlankFit | None:
+    """The last stage, with all that the method moves."""
+    if set(method.free) != set(free):
         wishes = {name: Wish(0.0, spread) for name, spread in method.spreads.items()}
         stage = work.run(vector, method.free, wishes, fit.look.memory)
         if stage is None:
             return None
         vector, fit = stage
-        free = method.free
-    return _result(work, vector, fit, free)
+    return _result(work, vector, fit, method.free)
 
 
 @dataclass(frozen=True)

@@ -129,24 +129,18 @@ def pinion_model(
     blank: PairBlank,
     cone: PitchCone,
     vector: Array,
+    lead: Array,
+    roll: Array,
     target: Target,
     root_spread: tuple[float, float, float],
 ) -> PinionModel:
-    """The model of a pinion flank at the start that is the wheel's exact conjugate."""
+    """The model of a pinion flank at a start; ``lead`` and ``roll`` (n,) are where Newton begins."""
     own, c = blank.pinion, conjugate
-    tilt, swivel, q = (vector[INDEX[n]] for n in ("tilt_angle", "swivel_angle", "cradle_angle"))
-    turn = 0.5 * math.pi - q + swivel
-    axis = np.array(
-        [math.sin(tilt) * math.cos(turn), math.sin(tilt) * math.sin(turn), math.cos(tilt)]
-    )
-    radial = vector[INDEX["radial_distance"]]
-    centre = np.array([radial * math.cos(q), -radial * math.sin(q), -vector[INDEX["sliding_base"]]])
-    lead = -(c.cradle_point - centre) @ axis / math.cos(vector[INDEX["blade_angle"]])
     outward, side_sign = (-1.0 if side == "concave" else 1.0), (1.0 if side == "concave" else -1.0)
     places = target_places(c, blank)
     distance = np.array([own.inner_cone_distance, own.mean_cone_distance, own.outer_cone_distance])
     looks = [
-        flank_at(vector, trial, outward, side_sign, 0.0, c.z, c.rho, lead, c.roll)
+        flank_at(vector, trial, outward, side_sign, 0.0, c.z, c.rho, lead, roll)
         for trial in BRANCHES
     ]
     branch = int(np.argmin([_misfit(got, c) for got in looks]))
@@ -154,14 +148,13 @@ def pinion_model(
     # a left-hand member turns its concave flanks to falling angles
     if got[4][c.middle] * outward < 0.0:
         outward = -outward
-    sense = got[5] / got[5][c.middle]
-    there = c.there & (got[3] < LEFT) & (sense > FOLDING)
+    there = c.there & (got[3] < LEFT) & (got[5] / got[5][c.middle] > FOLDING)
     root = -np.array([own.inner_dedendum, own.mean_dedendum, own.outer_dedendum])
     roots = [root_at(vector, sign, cone, side_sign, distance, np.zeros(3)) for sign in BRANCHES]
     off = [float(np.abs(r[1] - root).max() + 1e6 * r[2].max()) for r in roots]
     return PinionModel(
         side, cone, c, target.at(places), there, distance, root, np.array(root_spread),
-        BRANCHES[branch], outward, 0.0, BRANCHES[int(np.argmin(off))], lead, c.roll,
+        BRANCHES[branch], outward, 0.0, BRANCHES[int(np.argmin(off))], got[0], got[1],
     )  # fmt: skip
 
 
@@ -173,3 +166,15 @@ def _misfit(got: Array, conjugate: Conjugate) -> float:
     if not found[conjugate.middle]:
         return np.inf
     return float(np.median(off[found])) + 10.0 * float((~found & conjugate.there).mean())
+
+
+def lead_of(conjugate: Conjugate, vector: Array) -> Array:
+    """Edge parameters of the conjugate's points on a cutter that stands as the wheel's, mm."""
+    tilt, swivel, q = (vector[INDEX[n]] for n in ("tilt_angle", "swivel_angle", "cradle_angle"))
+    turn, radial = 0.5 * math.pi - q + swivel, vector[INDEX["radial_distance"]]
+    axis = np.array(
+        [math.sin(tilt) * math.cos(turn), math.sin(tilt) * math.sin(turn), math.cos(tilt)]
+    )
+    centre = np.array([radial * math.cos(q), -radial * math.sin(q), -vector[INDEX["sliding_base"]]])
+    height = -(conjugate.cradle_point - centre) @ axis
+    return height / math.cos(vector[INDEX["blade_angle"]])
