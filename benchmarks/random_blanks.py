@@ -31,6 +31,7 @@ from hypoid.design import (
 from hypoid.geometry import DesignError
 
 SEED = 23509
+LEAST_SPIRAL = 22.0  # deg, of the wheel: below, the charts of generated face-milled flanks fold
 LOOK = Sampling(positions_per_pitch=12, pairs=3, columns=31, rows=15, every_edge=False)
 PINIONS = ("tilt", "modified-roll", "generated", "helical", "universal")
 COLUMNS = (
@@ -79,16 +80,19 @@ def draw(number: int, random: np.random.Generator) -> Draw:
         offset = share * 0.5 * de2
         mean = 0.5 * (de2 - face * sin(delta2))
         turn = asin(min(offset / mean, 0.9))
-        spiral = radians(random.uniform(0.0, 35.0 if share else 45.0))
+        spiral = radians(random.uniform(LEAST_SPIRAL, 38.0 if share else 45.0))
         if degrees(spiral + turn) > 60.0:
             continue
-        hobbed = bool(random.random() < 0.2) and spiral > radians(15.0)
+        hobbed = bool(random.random() < 0.2)
         method = 0 if not share else int(random.choice([1, 1, 2, 3]))
         cutter = float(random.uniform(0.75, 1.25)) * (cone - 0.5 * face)
         taper = str(random.choice(["standard", "uniform", "modified"]))
         wheel = "formate" if ratio > 2.5 and random.random() < 0.6 else "generated"
+        pinion = str(random.choice(PINIONS))
+        if pinion == "generated" and wheel == "formate":
+            pinion = "tilt"  # a plain roll without tilt is no match for a form-cut wheel
         return Draw(
-            number, hobbed, wheel, str(random.choice(PINIONS)),
+            number, hobbed, wheel, pinion,
             method, z1, z2, module, sigma, offset, spiral, cutter, face, taper,
         )  # fmt: skip
 

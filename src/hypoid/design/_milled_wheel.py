@@ -136,4 +136,13 @@ def milled_wheel(request: MilledRequest, blank: PairBlank) -> MilledWheel:
             way=best_way(settings, revolution=True),
         )
 
-    return MilledWheel(cut, settings, slots, edges, edge, height, flank("concave"), flank("convex"))
+    concave, convex = flank("concave"), flank("convex")
+    if not (concave.generated and convex.generated):
+        beta = math.degrees(own.mean_spiral_angle)
+        given = f'"{request.wheel_method}" at a spiral angle of {beta:.3g} deg'
+        expected = (
+            "a wheel that is not undercut between toe and heel: form cut it, or lower the depth or "
+            "the taper"
+        )
+        raise DesignError([Problem("wheel.method", given, expected, 'method = "formate"')])
+    return MilledWheel(cut, settings, slots, edges, edge, height, concave, convex)

@@ -16,7 +16,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from hypoid.cutter import EdgePiece
+from hypoid.cutter import EdgePiece, mill_edge
 from hypoid.flank import PitchCone, Surface, axial_radial_angle, newton_pair, position_and_normal
 from hypoid.geometry import Batch, Batched, Scalar, dot
 from hypoid.machine import MachineSettings, Motions, Way, generator
@@ -79,18 +79,7 @@ def edge_of(vector: Any, side: Scalar, reference: Scalar) -> EdgePiece:
     ``reference`` is the height, mm, above the tips where a curved blade has its angle; s = 0 is there.
     """
     radius, angle, bend = (vector[INDEX[name]] for name in BLADE)
-    sine, cosine = jnp.sin(angle), jnp.cos(angle)
-    zero = 0.0 * radius
-    return EdgePiece(
-        start=(radius + side * reference * sine / cosine, zero, -reference + zero),
-        tangent=(side * sine, zero, -cosine),
-        metal=(side * cosine, zero, sine),
-        curvature=bend,
-        relief=zero,
-        relief_from=zero,
-        low=zero,
-        high=zero,
-    )
+    return mill_edge(radius, angle, bend, side=side, reference_height=reference)
 
 
 def _surface(vector: Any, branch: Scalar, outward: Scalar) -> Surface:
