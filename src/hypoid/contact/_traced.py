@@ -77,7 +77,10 @@ class TracedContact:
         index = (i[:, None] * nodes.height.shape[1] + j).ravel()
         phi, found = self._vertices(index)
         place = np.stack(
-            [np.broadcast_to(nodes.distance[j], (rows, columns)).ravel(), nodes.height[i][:, j].ravel()]
+            [
+                np.broadcast_to(nodes.distance[j], (rows, columns)).ravel(),
+                nodes.height[i][:, j].ravel(),
+            ]
         )
         start = np.stack([nodes.s[index], nodes.theta[index]], axis=1)
         lead, lever = self._lead_at(parameters, place.T, start, phi)
@@ -140,14 +143,14 @@ class TracedContact:
             return jnp.stack(pinion.cone.cone_distance_height(point[2], rho)) - at
 
         def one(at: Batch, x: Batch, phi: Batch, y: Batch) -> tuple[Batch, Batch]:
-            x = implicit(lambda v: on_pinion(v, at), x)
+            x = implicit(lambda v: on_pinion(v, at), x, steps=2)
             p = pinion_seen(mount, first, parameters.pinion.edge, phi, x[0], x[1])
 
             def on_wheel(v: Batch) -> Batch:
                 w = wheel_seen(second, parameters.wheel.edge, v[0], v[1])
                 return jnp.stack([w[0] - p[0], w[1] - p[1]])
 
-            y = implicit(on_wheel, y)
+            y = implicit(on_wheel, y, steps=2)  # from the chart
             w = wheel_seen(second, parameters.wheel.edge, y[0], y[1])
             lead = mount.sense * (w[5] - p[5]) - mount.wheel_zero - mount.ratio * phi
             return lead, jnp.abs(p[1] * p[4])
@@ -194,7 +197,7 @@ def traced_contact(contact: UnloadedContact) -> TracedContact:
     return TracedContact(contact, parameters)
 
 
-def implicit(conditions: Callable[[Batch], Batch], start: Batch, steps: int = 3) -> Batch:
+def implicit(conditions: Callable[[Batch], Batch], start: Batch, steps: int = 1) -> Batch:
     """Root (k,) of k conditions near a start, with its derivatives by all that they close over."""
     held = jax.lax.stop_gradient
 
@@ -205,5 +208,3 @@ def implicit(conditions: Callable[[Batch], Batch], start: Batch, steps: int = 3)
     for _ in range(steps - 1):
         x = held(step(x))
     return step(x)
-
-

@@ -28,7 +28,11 @@ def mill_edge(
     sine, cosine = jnp.sin(angle), jnp.cos(angle)
     zero = 0.0 * point_radius
     return EdgePiece(
-        start=(point_radius + side * reference_height * sine / cosine, zero, zero - reference_height),
+        start=(
+            point_radius + side * reference_height * sine / cosine,
+            zero,
+            zero - reference_height,
+        ),
         tangent=(side * sine, zero, -cosine),
         metal=(side * cosine, zero, sine),
         curvature=curvature + zero,

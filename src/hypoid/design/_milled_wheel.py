@@ -14,7 +14,7 @@ from hypoid.blank import (
     slot_geometry,
 )
 from hypoid.cutter import FaceMillHead
-from hypoid.flank import Border, Flank, PitchCone, Side, best_way, cut_flank
+from hypoid.flank import Border, Flank, PitchCone, Side, best_way, cut_flank, flank_angles
 from hypoid.geometry import DesignError, Problem
 from hypoid.machine import MachineSettings
 
@@ -27,6 +27,7 @@ EDGE = 0.3  # of the mean normal module: the edge radius that practice does not 
 ROOM = 0.7  # of the clearance, that an edge arc may take
 LEAST_EDGE = 0.15  # of the mean normal module: rather than a sharper edge a form cutter cuts deeper
 LEAST_POINT = 0.15  # of the mean normal module: a blade's point must stand
+CORRECTIONS = 2
 SPARE = 1.6  # times both members' addenda: a blade surely longer than the tooth is deep
 
 
@@ -80,19 +81,29 @@ def milled_wheel(request: MilledRequest, blank: PairBlank) -> MilledWheel:
     edge = max(min(edge, (room - lift + deeper) / arc), 0.0)
     if request.wheel_edge_radius is not None:
         edge = request.wheel_edge_radius
-    if generated:
+    height = SPARE * (blank.pinion.outer_addendum + own.outer_addendum)
+
+    def cut_for(asked: tuple[float, float], spiral: float) -> WheelCut:
+        if not generated:
+            return form_cut(
+                own,
+                cutter_radius=radius,
+                tooth_thickness=thickness.mean_normal,
+                pressure_angles=by_side,
+                deeper=deeper,
+            )
         slot = math.pi * blank.mean_normal_module - thickness.mean_normal
-        cut = wheel_cut(
-            own, cutter_radius=radius, slot_width=slot, pressure_angles=by_side, generated=True
-        )
-    else:
-        cut = form_cut(
+        return wheel_cut(
             own,
             cutter_radius=radius,
-            tooth_thickness=thickness.mean_normal,
-            pressure_angles=by_side,
-            deeper=deeper,
+            slot_width=slot,
+            pressure_angles=asked,
+            generated=True,
+            spiral_angle=spiral,
         )
+
+    asked, spiral = by_side, own.mean_spiral_angle
+    cut = cut_for(asked, spiral)
     least = LEAST_POINT * blank.mean_normal_module
     if not cut.point_width > least:
         expected = (
@@ -101,7 +112,35 @@ def milled_wheel(request: MilledRequest, blank: PairBlank) -> MilledWheel:
         )
         given = f"{blank.depths.whole_depth if blank.depths else 0.0:.4g} mm"
         raise DesignError([Problem("blank.depth_factor", given, expected, "depth_factor = 1.8")])
-    height = SPARE * (blank.pinion.outer_addendum + own.outer_addendum)
+    settings, flanks = _flanks(blank, cut, height, edge, generated)
+    for _ in range(
+        CORRECTIONS if generated else 0
+    ):  # what the roll about the root plane's normal turns
+        seen = [flank_angles(flank, own.mean_cone_distance) for flank in flanks]
+        if not math.isfinite(sum(at.pressure + at.spiral for at in seen)):
+            break
+        off = [w - at.pressure for w, at in zip(by_side, seen, strict=True)]
+        asked = asked[0] + off[0], asked[1] + off[1]
+        spiral += own.mean_spiral_angle - 0.5 * sum(at.spiral for at in seen)
+        cut = cut_for(asked, spiral)
+        settings, flanks = _flanks(blank, cut, height, edge, generated)
+    concave, convex = flanks
+    if not (concave.generated and convex.generated):
+        beta = math.degrees(own.mean_spiral_angle)
+        given = f'"{request.wheel_method}" at a spiral angle of {beta:.3g} deg'
+        expected = (
+            "a wheel that is not undercut between toe and heel: form cut it, or lower the depth or "
+            "the taper"
+        )
+        raise DesignError([Problem("wheel.method", given, expected, 'method = "formate"')])
+    return MilledWheel(cut, settings, slots, edges, edge, height, concave, convex)
+
+
+def _flanks(
+    blank: PairBlank, cut: WheelCut, height: float, edge: float, generated: bool
+) -> tuple[MachineSettings, tuple[Flank, Flank]]:
+    """Settings of a cut, and its flanks, concave and convex."""
+    own = blank.wheel
     settings = MachineSettings(
         radial_distance=cut.radial_distance,
         cradle_angle=cut.cradle_angle,
@@ -113,7 +152,7 @@ def milled_wheel(request: MilledRequest, blank: PairBlank) -> MilledWheel:
         generated=generated,
     )
     head = FaceMillHead.spread_blade(
-        2.0 * radius, cut.point_width, *cut.blade_angles, height, edge_radius=edge
+        sum(cut.point_radii), cut.point_width, *cut.blade_angles, height, edge_radius=edge
     )
 
     def flank(side: Side) -> Flank:
@@ -136,13 +175,4 @@ def milled_wheel(request: MilledRequest, blank: PairBlank) -> MilledWheel:
             way=best_way(settings, revolution=True),
         )
 
-    concave, convex = flank("concave"), flank("convex")
-    if not (concave.generated and convex.generated):
-        beta = math.degrees(own.mean_spiral_angle)
-        given = f'"{request.wheel_method}" at a spiral angle of {beta:.3g} deg'
-        expected = (
-            "a wheel that is not undercut between toe and heel: form cut it, or lower the depth or "
-            "the taper"
-        )
-        raise DesignError([Problem("wheel.method", given, expected, 'method = "formate"')])
-    return MilledWheel(cut, settings, slots, edges, edge, height, concave, convex)
+    return settings, (flank("concave"), flank("convex"))
