@@ -44,7 +44,7 @@ def test_the_written_file_makes_the_same_flanks(hypoid: Any, tmp_path: Path) -> 
         distance, height = one.grid(5, 9)
         first, second = (flank.at_cone(distance, height) for flank in (one, other))
         both = first.ok & second.ok
-        assert both.mean() > 0.8
+        assert both.mean() > 0.75  # the root row lies in the land
         assert np.abs(first.position[both] - second.position[both]).max() < 1e-9
 
 

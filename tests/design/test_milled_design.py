@@ -95,7 +95,7 @@ def test_the_start_is_the_form_cut_wheels_exact_conjugate(
     start = conjugate_start(wheel, blank, side)
     flat = EaseOffTarget(0.0, 0.0)
     model = pinion_model(
-        side, found, blank, cone, start, lead_of(found, start), found.roll, flat, (1.0,) * 3
+        side, found, blank, cone, start, lead_of(found, start), found.roll, flat, 1.0
     )
     seen = model.look(start, {}, model.start_memory)
     assert seen is not None

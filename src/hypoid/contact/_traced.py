@@ -16,12 +16,14 @@ import jax.numpy as jnp
 import numpy as np
 
 from hypoid.flank import (
+    Flank,
     FlankParameters,
+    axial_radial_angle,
     flank_parameters,
     position_and_normal,
     traced_surface,
 )
-from hypoid.geometry import Batch
+from hypoid.geometry import Batch, horner
 
 from ._mounting import Mounting, to_wheel
 from ._refine import pinion_seen, wheel_seen
@@ -87,8 +89,15 @@ class TracedContact:
         return jnp.where(found, -lead * lever, jnp.nan).reshape(rows, columns)
 
     def _mount(self, parameters: ContactParameters) -> Mounting:
-        """The contact's mounting with the parameters' errors on top."""
+        """The contact's mounting with the parameters' errors on top; both pitch points meet at zero."""
         contact, own = self.contact, self.contact.misalignment
+        cones, sense = contact.pair.blank.cones, contact.mount.sense
+        pinion_angle = _mean_angle(
+            contact.pinion_flank, parameters.pinion, cones.pinion_mean_cone_distance
+        )
+        wheel_angle = _mean_angle(
+            contact.wheel_flank, parameters.wheel, cones.wheel_mean_cone_distance
+        )
         offset, pinion, wheel, angle = (parameters.misalignment[k] for k in range(4))
         sigma = contact.pair.blank.cones.shaft_angle + own.shaft_angle + angle
         c, s = jnp.cos(sigma), jnp.sin(sigma)
@@ -101,6 +110,8 @@ class TracedContact:
                 -(contact.pair.blank.cones.offset + own.offset + offset),
                 out * c - own.wheel_axial - wheel,
             ),
+            pinion_zero=cones.pinion_azimuth - pinion_angle,
+            wheel_zero=sense * (cones.wheel_azimuth + wheel_angle),
         )
 
     def _met(self, parameters: ContactParameters) -> tuple[Batch, Batch]:
@@ -158,10 +169,8 @@ class TracedContact:
         # where the wheel's own search begins: read from its chart at the parameters of the contact
         nodes = contact.nodes
         held = tuple(jnp.asarray(v) for v in self._held(nodes, place))
-        x, y, z = to_wheel(contact.mount, jnp.asarray(phi), held)
+        x, y, z = to_wheel(contact.mount, jnp.asarray(phi), held)  # pyright: ignore[reportArgumentType]
         distance, height = wheel.cone.cone_distance_height(z, jnp.hypot(x, y))
-        from hypoid.geometry import horner
-
         u, v = (jnp.clip(c, -1.0, 1.0) for c in chart.coordinates(distance, height))
         begin = jnp.stack([horner(chart.s, u, v), horner(chart.theta, u, v)], axis=1)
         return jax.vmap(one)(jnp.asarray(place), jnp.asarray(start), jnp.asarray(phi), begin)
@@ -195,6 +204,20 @@ def traced_contact(contact: UnloadedContact) -> TracedContact:
         jnp.zeros(4),
     )
     return TracedContact(contact, parameters)
+
+
+def _mean_angle(flank: Flank, parameters: FlankParameters, distance: float) -> Batch:
+    """Angle of a flank's mean point about its axis, left hand, rad: what a mounting counts from."""
+    surface = traced_surface(parameters, flank)
+    wanted = jnp.array([distance, 0.0])
+
+    def conditions(x: Batch) -> Batch:
+        z, rho, _ = axial_radial_angle(surface, parameters.edge, x[0], x[1])
+        return jnp.stack(flank.cone.cone_distance_height(z, rho)) - wanted
+
+    s, turn, _ = flank.parameters([distance], [0.0])
+    x = implicit(conditions, jnp.array([s[0], turn[0]]))
+    return axial_radial_angle(surface, parameters.edge, x[0], x[1])[2]
 
 
 def implicit(conditions: Callable[[Batch], Batch], start: Batch, steps: int = 1) -> Batch:

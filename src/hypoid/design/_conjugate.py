@@ -117,8 +117,8 @@ def conjugate(blank: PairBlank, wheel: Flank, pinion_cone: PitchCone) -> Conjuga
 def _unfolded(distance: Array, height: Array, middle: int) -> Array:
     """Where the wheel's grid lies on the pinion in one sense: beyond, the conjugate is undercut."""
     shape = (ROWS, COLUMNS)
-    along = [np.gradient(v.reshape(shape), axis=1) for v in (distance, height)]
-    across = [np.gradient(v.reshape(shape), axis=0) for v in (distance, height)]
+    along: list[Array] = [np.gradient(v.reshape(shape), axis=1) for v in (distance, height)]  # pyright: ignore
+    across: list[Array] = [np.gradient(v.reshape(shape), axis=0) for v in (distance, height)]  # pyright: ignore
     sense = (along[0] * across[1] - along[1] * across[0]).ravel()
     return sense / sense[middle] > FOLDING
 

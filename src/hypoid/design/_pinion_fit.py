@@ -153,8 +153,7 @@ def fit_pinion(
     wish = blade_wish(angles.drive if drive else angles.coast)
 
     def work(start: Array, lead: Array, roll: Array) -> _Work:
-        spread = (ROOT_SPREAD,) * 3
-        model = pinion_model(side, found, blank, cone, start, lead, roll, target, spread)
+        model = pinion_model(side, found, blank, cone, start, lead, roll, target, ROOT_SPREAD)
         return _Work(model, step_limits(blank, start[INDEX["ratio_of_roll"]]), wish)
 
     method = METHODS[request.pinion_method]

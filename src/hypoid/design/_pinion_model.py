@@ -57,7 +57,7 @@ class PinionModel:
     there: Array  # (n,) bool: points that count
     root_distance: Array  # S where the root is looked at, mm
     root_height: Array  # H wanted there
-    root_spread: Array  # how far it may stray, mm
+    root_spread: float  # how far it may stray, mm
     branch: float
     outward: float
     reference: float  # height of a curved blade's angle above the tips, mm
@@ -132,7 +132,7 @@ def pinion_model(
     lead: Array,
     roll: Array,
     target: Target,
-    root_spread: tuple[float, float, float],
+    root_spread: float,
 ) -> PinionModel:
     """The model of a pinion flank at a start; ``lead`` and ``roll`` (n,) are where Newton begins."""
     own, c = blank.pinion, conjugate
@@ -153,7 +153,7 @@ def pinion_model(
     roots = [root_at(vector, sign, cone, side_sign, distance, np.zeros(3)) for sign in BRANCHES]
     off = [float(np.abs(r[1] - root).max() + 1e6 * r[2].max()) for r in roots]
     return PinionModel(
-        side, cone, c, target.at(places), there, distance, root, np.array(root_spread),
+        side, cone, c, target.at(places), there, distance, root, root_spread,
         BRANCHES[branch], outward, 0.0, BRANCHES[int(np.argmin(off))], got[0], got[1],
     )  # fmt: skip
 

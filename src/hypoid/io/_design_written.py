@@ -41,15 +41,14 @@ def design_text(design: MilledDesign) -> str:
         "Written by `hypoid design`. Change what you like: this file alone makes the flanks.",
         f"Mean normal module {blank.mean_normal_module:.4f} mm, limit pressure angle and the rest: `hypoid blank`.",
     ]
-    for side, direction, target in (
-        ("concave", "drive", request.drive),
-        ("convex", "coast", request.coast),
-    ):
-        fit = design.fits[side]
+    for side, fit in design.fits.items():
+        drive = side == "concave"
+        direction, target = ("drive", request.drive) if drive else ("coast", request.coast)
         remarks.append(f"Asked of {direction} (pinion {side}): {_target(target)}.")
         low, mean, high = (1e3 * float(v) for v in fit.root_error)
         remarks.append(
-            f"  root as cut less the blank's: {low:.0f} um at the toe, {mean:.0f} at the mean point, {high:.0f} at the heel"
+            f"  root as cut less the blank's: {low:.0f} um at the toe, {mean:.0f} at the mean point, "
+            f"{high:.0f} at the heel"
         )
         remarks += [f"  not determined by the target: {words}" for words in fit.undetermined]
     remarks += [f"Assumed {a.value}: {a.reason}" for a in request.assumed]
