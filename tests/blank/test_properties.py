@@ -12,7 +12,7 @@ from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 
 from hypoid.blank import FaceHobbedInputs, PairBlank, pair_blank, solve_aligned_cones
-from hypoid.blank._alignment import bracketed_root
+from hypoid.blank._cone_solver import bracketed_root
 from hypoid.geometry import DesignError
 
 QUICK = settings(

@@ -152,6 +152,20 @@ class OuterPinionReadings:
 
 
 @dataclass(frozen=True)
+class FlankPressureAngles:
+    """Normal pressure angles at P by side, rad: pinion concave with wheel convex is the drive side."""
+
+    drive: float  # alpha_nD, generated
+    coast: float  # alpha_nC
+    limit: float  # alpha_lim
+
+    @property
+    def effective(self) -> tuple[float, float]:
+        """alpha_eD, alpha_eC: what is left above the limit pressure angle (ISO 23509, (119), (120))."""
+        return self.drive - self.limit, self.coast + self.limit
+
+
+@dataclass(frozen=True)
 class PairBlank:
     """Blanks of a pair; mm and rad."""
 
@@ -173,6 +187,7 @@ class PairBlank:
     ratio_residual: float | None  # mm, condition (1) over z1 + z2
     alignment_residual: float | None  # condition (2) over R_m1 R_m2
     tangency_residual: float = 0.0  # rad, by which the pinion's pitch angle misses tangency
+    pressure_angles: FlankPressureAngles | None = None  # None: both are `pressure_angle`
 
     @property
     def faults(self) -> tuple[BlankFault, ...]:
@@ -184,8 +199,13 @@ class PairBlank:
             found.append(BlankFault.POINTED_PINION)
         if lands[1] is not None and lands[1].least < least:
             found.append(BlankFault.POINTED_WHEEL)
-        angle = self.pressure_angle
-        if angle is not None and angle - abs(self.limit_pressure_angle) < NEAR_LIMIT:
+        if self.pressure_angles is not None:
+            effective = min(self.pressure_angles.effective)
+        elif self.pressure_angle is not None:
+            effective = self.pressure_angle - abs(self.limit_pressure_angle)
+        else:
+            effective = NEAR_LIMIT
+        if effective < NEAR_LIMIT:
             found.append(BlankFault.NEAR_LIMIT_PRESSURE_ANGLE)
         return tuple(found)
 

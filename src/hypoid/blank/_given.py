@@ -28,10 +28,17 @@ class GivenBlank:
     face_angle: float
     outer_dedendum: float | None = None  # None, with root_angle: as the cutter cuts
     root_angle: float | None = None
+    outer_face_width: float | None = None  # mean point to heel; None: half the face width
+
+    @property
+    def outer_share(self) -> float:
+        """Face width from the mean point to the heel, mm."""
+        return 0.5 * self.face_width if self.outer_face_width is None else self.outer_face_width
 
     @property
     def mean_cone_distance(self) -> float:
-        return self.outer_cone_distance - 0.5 * self.face_width
+        """Cone distance of the mean point, mm."""
+        return self.outer_cone_distance - self.outer_share
 
 
 def crown_point(
@@ -125,9 +132,10 @@ def _member(
     name: Name, teeth: int, hand: Hand, given: GivenBlank, cones: PitchCones
 ) -> MemberBlank:
     first = name == "pinion"
-    delta, distance, half = given.pitch_angle, given.mean_cone_distance, 0.5 * given.face_width
+    delta, distance, outer = given.pitch_angle, given.mean_cone_distance, given.outer_share
+    inner = given.face_width - outer
     taper = tan(given.face_angle - delta)
-    addendum = given.outer_addendum - taper * half
+    addendum = given.outer_addendum - taper * outer
     nothing = float("nan")  # until the cutters say
     blank = MemberBlank(
         name=name,
@@ -137,13 +145,13 @@ def _member(
         mean_spiral_angle=given.mean_spiral_angle,
         mean_pitch_diameter=2.0 * distance * sin(delta),
         outer_pitch_diameter=2.0 * given.outer_cone_distance * sin(delta),
-        inner_pitch_diameter=2.0 * (distance - half) * sin(delta),
+        inner_pitch_diameter=2.0 * (distance - inner) * sin(delta),
         mean_cone_distance=distance,
         outer_cone_distance=given.outer_cone_distance,
-        inner_cone_distance=distance - half,
+        inner_cone_distance=distance - inner,
         face_width=given.face_width,
-        outer_face_width=half,
-        inner_face_width=half,
+        outer_face_width=outer,
+        inner_face_width=inner,
         pitch_apex_beyond_crossing_point=(
             cones.pinion_apex_beyond_crossing if first else cones.wheel_apex_beyond_crossing
         ),
@@ -153,7 +161,7 @@ def _member(
         mean_dedendum=nothing,
         outer_addendum=given.outer_addendum,
         outer_dedendum=nothing,
-        inner_addendum=addendum - taper * half,
+        inner_addendum=addendum - taper * inner,
         inner_dedendum=nothing,
         face_angle=given.face_angle,
         root_angle=nothing,
@@ -166,7 +174,7 @@ def _member(
     blank = replace(blank, face_apex_beyond_crossing_point=apex)
     if given.outer_dedendum is None or given.root_angle is None:
         return blank
-    mean = given.outer_dedendum - tan(delta - given.root_angle) * half
+    mean = given.outer_dedendum - tan(delta - given.root_angle) * outer
     return with_root_line(blank, mean, given.root_angle)
 
 
@@ -191,5 +199,12 @@ def _faults(name: Name, given: GivenBlank) -> list[Problem]:
             f"{given.face_width:g} mm",
             f"a face narrower than the outer cone distance of {given.outer_cone_distance:.5g} mm",
             f"{0.3 * given.outer_cone_distance:.3g} mm",
+        )
+    elif not 0.0 < given.outer_share < given.face_width:
+        wrong(
+            "outer_face_width",
+            f"{given.outer_share:g} mm",
+            f"less than the face width of {given.face_width:g} mm: the mean point lies on the face",
+            f"{0.5 * given.face_width:.3g} mm",
         )
     return found

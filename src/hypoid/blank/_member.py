@@ -27,6 +27,7 @@ class MemberBuilder:
     spirals: EndSpiralAngles
     tooth: CrownGearTooth
     pressure_angle: float  # rad
+    thickness_factors: tuple[float, float] = (0.0, 0.0)  # x_sm1, x_sm2, backlash taken off
 
     def member(self, name: Name, hand: Hand, face: FaceWidth) -> MemberBlank:
         """Blank of one member with its face width."""
@@ -51,6 +52,7 @@ class MemberBuilder:
             raise DesignError([_toe_problem(name, face, ends.inner_dedendum, inner * sin(delta))])
         s_mn = mean_normal_thickness(
             cones.mean_normal_module,
+            thickness_factor=self.thickness_factors[i],
             profile_shift=self.factors.profile_shift * (1.0, -1.0)[i],
             pressure_angle=self.pressure_angle,
         )

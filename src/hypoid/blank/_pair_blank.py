@@ -14,7 +14,7 @@ from ._alignment import (
     ratio_residual,
     solve_aligned_cones,
 )
-from ._blank import Hand, OuterPinionReading, OuterPinionReadings, PairBlank
+from ._blank import FlankPressureAngles, Hand, OuterPinionReading, OuterPinionReadings, PairBlank
 from ._cones import face_and_root_cones
 from ._depths import DepthFactors, depth_factors, mean_depths
 from ._face_width import (
@@ -165,10 +165,13 @@ def blank_of_cones(
     wheel_dedendum_angle: float = 0.0,
     outer_share: float = 0.5,
     pinion_width: PinionFaceWidth | None = None,
+    thickness_factors: tuple[float, float] = (0.0, 0.0),
+    pressure_angles: FlankPressureAngles | None = None,
 ) -> PairBlank:
     """Blank on given pitch cones, however they were found (ISO 23509, clauses 7.2-7.8).
 
-    `outer_share` is c_be2; `pinion_width` None means method 3, or method 0 without offset.
+    `outer_share` is c_be2; `pinion_width` None means method 3, or method 0 without offset. The
+    thickness factors (pinion, wheel) have the backlash taken off.
     """
     depths = mean_depths(cones.mean_normal_module, factors)
     face_root = face_and_root_cones(
@@ -185,7 +188,9 @@ def blank_of_cones(
     tooth = crown_gear_tooth(cones, cutter_radius, blade_groups)
     _check_reach(cones, tooth, pinion, wheel)
     spirals = end_spiral_angles(cones, tooth, pinion, wheel)
-    build = MemberBuilder(cones, depths, face_root, factors, spirals, tooth, pressure_angle)
+    build = MemberBuilder(
+        cones, depths, face_root, factors, spirals, tooth, pressure_angle, thickness_factors
+    )
     opposite: Hand = "right" if pinion_hand == "left" else "left"
     wheel_outer_diameter = (
         2.0 * (cones.wheel_mean_cone_distance + wheel.outer) * sin(cones.wheel_pitch_angle)
@@ -208,6 +213,7 @@ def blank_of_cones(
         outer_pinion_readings=_outer_readings(cones, wheel),
         ratio_residual=ratio_residual(cones),
         alignment_residual=alignment_residual(cones, cutter_radius),
+        pressure_angles=pressure_angles,
     )
 
 

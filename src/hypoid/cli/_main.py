@@ -15,6 +15,7 @@ from ._output import BAD_INPUT, report_problems, say
 # Each in its own module, imported when it is called for.
 _COMMANDS = {
     "check": "Whether a design is sound, and what it assumes.",
+    "design": "From blank and target to cutters and settings: a complete, commented design file.",
     "blank": "Pitch cones, tooth depths, face and root cones of both members.",
     "settings": "Basic machine settings of the four flanks, as on a summary sheet.",
     "flank": "Points and normals of one flank on a grid, to CSV or JSON.",

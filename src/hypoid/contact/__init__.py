@@ -21,6 +21,9 @@ from ._pattern import Pattern as Pattern
 from ._pattern import ease_off as ease_off
 from ._pattern import pattern as pattern
 from ._pattern import six_terms as six_terms
+from ._traced import ContactParameters as ContactParameters
+from ._traced import TracedContact as TracedContact
+from ._traced import traced_contact as traced_contact
 from ._unloaded import Sampling as Sampling
 from ._unloaded import UnloadedContact as UnloadedContact
 from ._unloaded import unloaded_contact as unloaded_contact

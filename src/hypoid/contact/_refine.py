@@ -25,7 +25,7 @@ STEPS = 6
 LIMIT_S, LIMIT_THETA = 0.5, 0.03  # mm, rad: greatest Newton step
 
 
-def _pinion_seen(
+def pinion_seen(
     mount: Mounting, surface: Surface, piece: EdgePiece, phi: Batch, s: Batch, theta: Batch
 ) -> tuple[Batch, ...]:
     """z, rho, normal (radial, axial, tangential) and angle of pinion points about the wheel axis."""
@@ -36,7 +36,7 @@ def _pinion_seen(
     return z, rho, (x * nx + y * ny) / rho, nz, (x * ny - y * nx) / rho, jnp.arctan2(y, x)
 
 
-def _wheel_seen(surface: Surface, piece: EdgePiece, s: Batch, theta: Batch) -> tuple[Batch, ...]:
+def wheel_seen(surface: Surface, piece: EdgePiece, s: Batch, theta: Batch) -> tuple[Batch, ...]:
     at, _ = placed(surface, piece, s, theta)
     x, y, z = at.point
     nx, ny, nz = at.normal
@@ -76,10 +76,10 @@ def _refine(
     """Parameters of both contact points, lead of the wheel, what is left, and the lead's Hessian."""
 
     def pinion(a: Batch, b: Batch) -> tuple[Batch, ...]:
-        return _pinion_seen(mount, surfaces[0], pieces[0], phi, a, b)
+        return pinion_seen(mount, surfaces[0], pieces[0], phi, a, b)
 
     def wheel(a: Batch, b: Batch) -> tuple[Batch, ...]:
-        return _wheel_seen(surfaces[1], pieces[1], a, b)
+        return wheel_seen(surfaces[1], pieces[1], a, b)
 
     def look(at: Seen) -> tuple[Seen, Seen]:
         """Newton's step at ``at``, and what there is to say of that place."""

@@ -9,6 +9,9 @@ from typing import TYPE_CHECKING, Any
 from ._blank import Spec as Spec
 from ._blank import sheet_blank as sheet_blank
 from ._blank import spec_blank as spec_blank
+from ._milled_request import MilledRequest as MilledRequest
+from ._milled_request import PinionMethod as PinionMethod
+from ._milled_request import WheelMethod as WheelMethod
 from ._sheet_spec import BladeSpec as BladeSpec
 from ._sheet_spec import FlankSpec as FlankSpec
 from ._sheet_spec import MemberSpec as MemberSpec
@@ -23,6 +26,9 @@ from ._spec import ExactFaceHobbedSpec as ExactFaceHobbedSpec
 from ._spec import Hand as Hand
 from ._spec import SettingValue as SettingValue
 from ._spec import TipRelief as TipRelief
+from ._target import EaseOffTarget as EaseOffTarget
+from ._target import MotionTarget as MotionTarget
+from ._target import Target as Target
 
 if TYPE_CHECKING:
     from ._build import build as build
@@ -31,6 +37,9 @@ if TYPE_CHECKING:
     from ._dialled import dialled as dialled
     from ._dialled import machine_named as machine_named
     from ._exact_face_hobbed import exact_settings as exact_settings
+    from ._milled_design import MilledDesign as MilledDesign
+    from ._milled_design import design_milled as design_milled
+    from ._pinion_fit import FlankFit as FlankFit
 
 _LAZY = {
     "axis_tables": "_dialled",
@@ -39,6 +48,9 @@ _LAZY = {
     "dialled": "_dialled",
     "machine_named": "_dialled",
     "exact_settings": "_exact_face_hobbed",
+    "FlankFit": "_pinion_fit",
+    "MilledDesign": "_milled_design",
+    "design_milled": "_milled_design",
 }
 
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from hypoid.blank import PairBlank, given_pair_blank, pair_blank
+from hypoid.blank import PairBlank, given_pair_blank, iso_blank, pair_blank
 
+from ._milled_request import MilledRequest
 from ._sheet_spec import SummarySheetSpec
 from ._spec import ExactFaceHobbedSpec
 
-Spec = ExactFaceHobbedSpec | SummarySheetSpec
+Spec = ExactFaceHobbedSpec | SummarySheetSpec | MilledRequest
 
 
 def spec_blank(spec: Spec) -> PairBlank:
@@ -20,6 +21,8 @@ def spec_blank(spec: Spec) -> PairBlank:
     """
     if isinstance(spec, SummarySheetSpec):
         return sheet_blank(spec)
+    if isinstance(spec, MilledRequest):
+        return iso_blank(spec.blank)
     return pair_blank(
         z1=spec.pinion_teeth,
         z2=spec.wheel_teeth,

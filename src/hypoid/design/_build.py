@@ -8,7 +8,9 @@ from hypoid.pair import GearPair, Member
 
 from ._blank import Spec
 from ._exact_face_hobbed import build_exact
+from ._milled_design import design_milled
 from ._milled_pair import build_milled
+from ._milled_request import MilledRequest
 from ._sheet_spec import SummarySheetSpec
 from ._spec import BodySpec
 
@@ -21,6 +23,8 @@ def build(spec: Spec) -> GearPair:
     DesignError
         Where no such pair exists, with the violated limit.
     """
+    if isinstance(spec, MilledRequest):
+        spec = design_milled(spec).spec
     pair = build_milled(spec) if isinstance(spec, SummarySheetSpec) else build_exact(spec)
     members = {name: _carried(getattr(pair, name), body) for name, body in spec.bodies.items()}
     return replace(pair, **members)

@@ -35,3 +35,6 @@ from ._tooth_facts import Neck as Neck
 from ._tooth_facts import ToothFacts as ToothFacts
 from ._tooth_facts import ToothSection as ToothSection
 from ._tooth_facts import tooth_facts as tooth_facts
+from ._traced import FlankParameters as FlankParameters
+from ._traced import flank_parameters as flank_parameters
+from ._traced import traced_surface as traced_surface

@@ -48,8 +48,39 @@ def cut_flank(
     """The flank that an edge cuts under given settings, by one way of meeting the meshing condition.
 
     Of all roots the one that passes nearest the mean point of the face, near the centre of roll.
-    ``theta_start`` is the turn that puts the mean point in place, where it is known.
+    ``theta_start`` is the turn that puts the mean point in place, where it is known. Where lines of
+    contact run nearly along the tooth (low spiral angles) the coordinates of the way ``cutter`` fold
+    though the flank does not: then the flank is written over the cutter's turn instead.
     """
+
+    def cut(by: Way) -> Flank:
+        return _cut_by(
+            by, member, side, settings, pieces, cone, mirrored, toe, heel, tip, root, theta_start
+        )
+
+    flank = cut(way)
+    if way == "cutter" and not np.isfinite(flank.charts["flank"].error):
+        other = cut("cradle" if settings.plain_roll else "newton")
+        if np.isfinite(other.charts["flank"].error):
+            return other
+    return flank
+
+
+def _cut_by(
+    way: Way,
+    member: str,
+    side: Side,
+    settings: MachineSettings,
+    pieces: Mapping[str, EdgePiece],
+    cone: PitchCone,
+    mirrored: bool,
+    toe: float,
+    heel: float,
+    tip: Border,
+    root: Border,
+    theta_start: float | None,
+) -> Flank:
+    """The flank by that way and no other."""
     gen, piece = generator(settings), pieces["flank"]
     middle = 0.5 * (toe + heel)
     if theta_start is not None:

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from ._jax import Vector as Vector
     from ._jax import compiled as compiled
     from ._jax import compiled_fused as compiled_fused
+    from ._jax import jitted as jitted
     from ._jax import once as once
     from ._namespace import namespace as namespace
     from ._polynomial import polynomial as polynomial
@@ -37,7 +38,17 @@ if TYPE_CHECKING:
 
 _HOMES = {
     "_chebyshev": ("fit", "fit_line", "horner", "horner_line", "nodes", "on_unit"),
-    "_jax": ("Batch", "Batched", "Rows", "Scalar", "Vector", "compiled", "compiled_fused", "once"),
+    "_jax": (
+        "Batch",
+        "Batched",
+        "Rows",
+        "Scalar",
+        "Vector",
+        "compiled",
+        "compiled_fused",
+        "jitted",
+        "once",
+    ),
     "_namespace": ("namespace",),
     "_polynomial": ("polynomial",),
     "_trig": ("sine_cosine", "unit_angle"),

@@ -67,6 +67,14 @@ def compiled(function: Callable[..., R], name: str = "") -> Callable[..., R]:
     return Stored(function, _options, name)
 
 
+def jitted(function: Callable[..., R]) -> Callable[..., R]:
+    """``jax.jit`` with the marks of ``once`` kept on the CPU: for derivatives of what is computed here.
+
+    Plain ``jax.jit`` gives the same numbers but may take minutes to compile them. Nothing is stored.
+    """
+    return jax.jit(function, compiler_options=_options())
+
+
 def compiled_fused(function: Callable[..., R]) -> Callable[..., R]:
     """The same for functions of one output, which XLA's own fusion serves best."""
     return Stored(function, lambda: None)

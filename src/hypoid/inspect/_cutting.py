@@ -8,7 +8,7 @@ is solved again, and one compiled function serves every method, motion and blade
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from typing import Any
 
 import jax
@@ -16,15 +16,12 @@ import jax.numpy as jnp
 import numpy as np
 
 from hypoid.cutter import EdgePiece
-from hypoid.flank import Surface, newton_pair, position_and_normal
+from hypoid.flank import FlankParameters, Surface, newton_pair, position_and_normal
 from hypoid.geometry import Batch, Batched, Rows, Scalar, Vector, compiled, dot, sine_cosine, turn_z
 from hypoid.machine import (
-    Cam,
     Generator,
     MachineSettings,
-    Motions,
     Way,
-    generator,
     mesh_cutter,
     meshed,
     place,
@@ -32,46 +29,29 @@ from hypoid.machine import (
 )
 
 Array = np.ndarray[Any, Any]
-ORDERS = 6  # coefficients of every motion
 STEPS = 4  # of Newton, from a flank that is near
 LIMIT = (0.5, 0.02)  # mm, rad: its greatest step
 FEW = 64  # points that go through at once
 LEFT = 1e-8  # mm, what it may leave
-NUMBERS = tuple(
-    f.name
-    for f in fields(MachineSettings)
-    if f.name not in ("modified_roll", "motions", "cam", "generated")
-)
 
 
 @jax.tree_util.register_dataclass
 @dataclass(frozen=True)
 class Cutting:
-    """Settings, motions and edge piece of one flank; the tree's leaves are all that can be changed."""
+    """What cuts one piece of a flank, and how it meshes; the tree's leaves are all that can be changed."""
 
-    numbers: dict[str, Scalar]  # of MachineSettings, by name
-    modified_roll: Batch  # (5,) c2 ... c6
-    motions: dict[str, Batch]  # (6,) each
-    cam: Cam | None
-    piece: EdgePiece
+    parameters: FlankParameters
     branch: Scalar
     outward: Scalar
     way: Way = field(metadata={"static": True})
 
     @property
+    def piece(self) -> EdgePiece:
+        return self.parameters.edge
+
+    @property
     def generator(self) -> Generator:
-        """The generator, every axis free to move (traced or not)."""
-        return generator(
-            MachineSettings(
-                **self.numbers,
-                modified_roll=tuple(self.modified_roll[k] for k in range(ORDERS - 1)),
-                motions=Motions(
-                    **{n: tuple(c[k] for k in range(ORDERS)) for n, c in self.motions.items()}
-                ),
-                cam=self.cam,
-            ),
-            moving=True,
-        )
+        return self.parameters.generator
 
     @property
     def surface(self) -> Surface:
@@ -79,24 +59,8 @@ class Cutting:
 
 
 def cutting(settings: MachineSettings, piece: EdgePiece, surface: Surface, way: Way) -> Cutting:
-    """The tree of a flank that these settings and this piece cut, on the given surface's root."""
-
-    def row(values: Any, length: int) -> Array:
-        return np.array([*values, *[0.0] * length][:length], float)
-
-    cam = settings.cam
-    if cam is not None:  # never the seated cam's closed form: the seat may be what changes
-        cam = Cam(*(np.asarray(float(getattr(cam, f.name))) for f in fields(cam)))
-    return Cutting(
-        numbers={name: float(getattr(settings, name)) for name in NUMBERS},
-        modified_roll=row(settings.modified_roll, ORDERS - 1),
-        motions={f.name: row(getattr(settings.motions, f.name), ORDERS) for f in fields(Motions)},
-        cam=cam,
-        piece=piece,
-        branch=surface.branch,
-        outward=surface.outward,
-        way=way,
-    )
+    """What these settings and this piece cut, on the given surface's root."""
+    return Cutting(FlankParameters.of(settings, piece), surface.branch, surface.outward, way)
 
 
 def _angles(cut: Cutting, s: Batch, turn: Batch) -> tuple[Batch, ...]:

@@ -17,6 +17,7 @@ from ._write import write_bytes as write_bytes
 from ._write import write_text as write_text
 
 if TYPE_CHECKING:
+    from ._design_written import design_text as design_text
     from ._grid import FlankGrid as FlankGrid
     from ._grid import grid_csv as grid_csv
     from ._grid import grid_json as grid_json
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
     from ._step import write_step as write_step
 
 _LAZY = {
+    "design_text": "_design_written",
     "FlankGrid": "_grid",
     "grid_csv": "_grid",
     "grid_json": "_grid",

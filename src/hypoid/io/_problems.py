@@ -26,10 +26,13 @@ from ._document import (
     path_of,
     paths,
     shown,
+    table_at,
     toml,
     value_at,
 )
 from ._keys import LARGEST, DesignTable, keys_of, table_of
+from ._request_file import RequestFile
+from ._request_rules import request_rules
 from ._sheet_file import SummarySheetFile
 from ._sheet_rules import sheet_rules
 from ._sheet_settings import range_rules
@@ -47,6 +50,7 @@ class Form:
 
 DESIGNED = Form(DesignFile, design_rules)
 SHEET = Form(SummarySheetFile, sheet_rules, range_rules)
+REQUEST = Form(RequestFile, request_rules)
 
 
 def form_of(document: Document) -> Form | tuple[Problem, ...]:
@@ -59,6 +63,8 @@ def form_of(document: Document) -> Form | tuple[Problem, ...]:
         return (Problem("cutting", given, f"one of them: {_KINDS}", _EXAMPLE),)
     if blanks:
         return SHEET
+    if "process" in table_at(document, "cutting"):
+        return REQUEST
     if "cutting" in document:
         return DESIGNED
     faults = [

@@ -10,6 +10,8 @@ from hypoid.geometry import DesignError, Problem
 
 from ._design_file import DesignFile
 from ._problems import form_of, problems_of
+from ._request_file import RequestFile
+from ._request_of import request_of
 from ._sheet_file import SummarySheetFile
 from ._sheet_spec_of import sheet_spec_of
 from ._spec_of import spec_of
@@ -37,6 +39,8 @@ def parse_spec(text: str, name: str = "design file") -> Spec:
     file = form.model.model_validate(document)
     if isinstance(file, SummarySheetFile):
         return sheet_spec_of(file)
+    if isinstance(file, RequestFile):
+        return request_of(file)
     assert isinstance(file, DesignFile)
     return spec_of(file)
 

@@ -7,12 +7,13 @@ from typing import Any
 from pydantic.json_schema import models_json_schema
 
 from ._design_file import DesignFile
+from ._request_file import RequestFile
 from ._sheet_file import SummarySheetFile
 
 
 def json_schema() -> dict[str, Any]:
-    """Schema of both kinds of file: a pair that the program designs, or a summary sheet."""
-    kinds = (DesignFile, SummarySheetFile)
+    """Schema of all kinds of file: exact face-hobbed, a summary sheet, a pair asked for by its blank."""
+    kinds = (DesignFile, SummarySheetFile, RequestFile)
     _, schema = models_json_schema([(kind, "validation") for kind in kinds], by_alias=True)
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",

@@ -53,6 +53,10 @@ class GivenBlankTable(Table):
     root_angle: Angle | None = key(
         "an angle between -30 and 90 deg", "76 deg 26 min", default=None, gt=-30 * DEG, lt=90 * DEG
     )
+    outer_face_width: Length | None = key(
+        "a length above 0, from the mean point to the heel, where that is not half the face width",
+        "13 mm", default=None, gt=0, le=LARGEST,
+    )  # fmt: skip
 
 
 class SheetFlank(Table):

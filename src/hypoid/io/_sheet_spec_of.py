@@ -97,6 +97,7 @@ def _blank(blank: GivenBlankTable) -> GivenBlank:
         face_angle=blank.face_angle,
         outer_dedendum=blank.outer_dedendum,
         root_angle=blank.root_angle,
+        outer_face_width=blank.outer_face_width,
     )
 
 

@@ -58,18 +58,21 @@ class Generator:
     seated: bool = field(default=False, metadata={"static": True})
 
 
-def generator(settings: MachineSettings, *, moving: bool = False) -> Generator:
+def generator(settings: MachineSettings, *, axes_move: bool | None = None) -> Generator:
     """The generator of a flank from its basic settings (any of which may be traced).
 
-    ``moving`` carries all axes though they rest, so that motions may be traced, too.
+    ``axes_move`` says whether axes beside roll and sliding base move; None looks at their motions,
+    which cannot be done where those are traced.
     """
     number = jnp.asarray
 
     def powers(first: Scalar, more: Sequence[float]) -> Batch:
         return number([first, *more, *[0.0] * (ORDERS - len(more))])
 
+    if axes_move is None:
+        axes_move = bool(set(settings.motions.moved()) - {"sliding_base"})
     axes = None
-    if moving or set(settings.motions.moved()) - {"sliding_base"}:
+    if axes_move:
         names = Axes.__dataclass_fields__
         axes = Axes(
             **{n: powers(getattr(settings, n), getattr(settings.motions, n)) for n in names}

@@ -1,0 +1,192 @@
+"""Random blanks over the practical space, each designed and looked at: the table of the docs.
+
+    python benchmarks/random_blanks.py 300 docs/validation/random-blanks.csv
+
+A pair counts as sound where its flanks meet inside at the middle of the mesh, both pinion flanks are
+within the tolerance of their targets, and undercut, if there is any, is reported. Every other one ends
+with a reason. The draw is seeded: the same blanks at every run.
+"""
+
+from __future__ import annotations
+
+import csv
+import sys
+import time
+from dataclasses import dataclass
+from math import asin, degrees, radians, sin
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from hypoid.blank import BlankRequest, TypeII
+from hypoid.contact import Sampling, unloaded_contact
+from hypoid.design import (
+    EaseOffTarget,
+    ExactFaceHobbedSpec,
+    MilledRequest,
+    build,
+    design_milled,
+)
+from hypoid.geometry import DesignError
+
+SEED = 23509
+LEAST_SPIRAL = 22.0  # deg, of the wheel: below, the charts of generated face-milled flanks fold
+LOOK = Sampling(positions_per_pitch=12, pairs=3, columns=31, rows=15, every_edge=False)
+PINIONS = ("tilt", "modified-roll", "generated", "helical", "universal")
+COLUMNS = (
+    "number", "process", "wheel", "pinion", "method", "teeth", "module_mm", "shaft_angle_deg",
+    "offset_share", "spiral_deg", "cutter_radius_mm", "residual_um", "tolerance_um", "outcome", "seconds",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Draw:
+    """One random blank, in mm and rad."""
+
+    number: int
+    hobbed: bool
+    wheel: str
+    pinion: str
+    method: int
+    z1: int
+    z2: int
+    module: float
+    shaft_angle: float
+    offset: float
+    spiral: float
+    cutter: float
+    face: float
+    taper: str
+
+
+def draw(number: int, random: np.random.Generator) -> Draw:
+    """A blank within practice: few teeth with high ratios, offset as the ratio and shaft angle allow."""
+    while True:
+        ratio = float(np.exp(random.uniform(0.0, np.log(15.0))))
+        usual = np.interp(ratio, [1.0, 2.0, 4.0, 6.0, 10.0, 15.0], [20, 15, 11, 9, 7, 6])
+        z1 = int(random.integers(max(int(usual) - 2, 5), int(usual) + 4))
+        z2 = round(ratio * z1)
+        sigma = radians(90.0 if random.random() < 0.6 else random.uniform(60.0, 120.0))
+        if z1 / z2 + np.cos(sigma) < 0.12 or z2 < z1:
+            continue
+        delta2 = float(np.arctan2(sin(sigma), z1 / z2 + np.cos(sigma)))
+        module = float(np.exp(random.uniform(0.0, np.log(15.0))))
+        de2 = module * z2
+        cone = 0.5 * de2 / sin(delta2)
+        face = min(random.uniform(0.24, 0.30) * cone, 10.0 * module)
+        most = min(0.45, 0.09 * ratio) * (1.0 if abs(sigma - radians(90.0)) < 0.01 else 0.4)
+        share = 0.0 if random.random() < 0.25 else random.uniform(0.0, most)
+        offset = share * 0.5 * de2
+        mean = 0.5 * (de2 - face * sin(delta2))
+        turn = asin(min(offset / mean, 0.9))
+        spiral = radians(random.uniform(LEAST_SPIRAL, 38.0 if share else 45.0))
+        if degrees(spiral + turn) > 60.0:
+            continue
+        hobbed = bool(random.random() < 0.2)
+        method = 0 if not share else int(random.choice([1, 1, 2, 3]))
+        cutter = float(random.uniform(0.75, 1.25)) * (cone - 0.5 * face)
+        taper = str(random.choice(["standard", "uniform", "modified"]))
+        wheel = "formate" if ratio > 2.5 and random.random() < 0.6 else "generated"
+        pinion = str(random.choice(PINIONS))
+        if pinion == "generated" and wheel == "formate":
+            pinion = "tilt"  # a plain roll without tilt is no match for a form-cut wheel
+        return Draw(
+            number, hobbed, wheel, pinion,
+            method, z1, z2, module, sigma, offset, spiral, cutter, face, taper,
+        )  # fmt: skip
+
+
+def milled(one: Draw) -> MilledRequest:
+    """The request of a face-milled draw; crownings grow with the module."""
+    size = (one.module / 4.0) ** 0.5
+    ratio = one.z2 / one.z1
+    depth = float(np.interp(ratio, [4.0, 10.0], [2.0, 1.7]))
+    target = EaseOffTarget(0.015 * size, 0.010 * size)
+    method: Any = one.method
+    taper: Any = one.taper
+    wheel: Any = one.wheel
+    pinion: Any = one.pinion
+    blank = BlankRequest(
+        method, one.z1, one.z2, one.shaft_angle, one.offset, one.face, one.cutter, one.spiral,
+        wheel_outer_diameter=one.module * one.z2, taper=taper, tooth=TypeII(depth_factor=depth),
+    )  # fmt: skip
+    return MilledRequest(
+        f"random {one.number}", "", (), blank, wheel, pinion, target, target,
+        tolerance=0.008 * max(size, 0.5),
+    )  # fmt: skip
+
+
+def hobbed(one: Draw) -> ExactFaceHobbedSpec:
+    """The exact face-hobbed pair of a draw."""
+    mean = 0.5 * one.module * one.z2 - 0.5 * one.face
+    turn = asin(min(one.offset / mean, 0.9))
+    return ExactFaceHobbedSpec(
+        title=f"random {one.number}", source="", assumed=(), shaft_angle=one.shaft_angle,
+        offset=one.offset, pinion_teeth=one.z1, wheel_teeth=one.z2, pinion_hand="left",
+        pinion_spiral_angle=one.spiral + 1.1 * turn, wheel_mean_radius=mean, wheel_face_width=one.face,
+        mean_addendum_factor=0.35, depth_factor=1.75, clearance_factor=0.125,
+        cutter_radius=one.cutter, blade_groups=7, pressure_angle=radians(20.0),
+        tip_edge_radius_factor=0.2, tip_relief=None, marking_thickness=0.0065,
+    )  # fmt: skip
+
+
+def outcome(one: Draw) -> tuple[str, float, float]:
+    """What became of a draw in words, its greatest residual and tolerance, um."""
+    residual = tolerance = float("nan")
+    reported: list[str] = []
+    try:
+        if one.hobbed:
+            pair = build(hobbed(one))
+        else:
+            made = design_milled(milled(one))
+            residual = 1e3 * max(fit.largest for fit in made.fits.values())
+            tolerance = 1e3 * made.request.tolerance
+            reported = [fault for fault in made.faults if "tolerance" not in fault]
+            pair = build(made.spec)
+    except DesignError as error:
+        first = error.problems[0]
+        return f"refused: {first.path}: {first.expected}", residual, tolerance
+    if residual > tolerance:
+        return "residual above the tolerance", residual, tolerance
+    for direction in ("drive", "coast"):
+        contact = unloaded_contact(pair, direction, sampling=LOOK)
+        n = LOOK.positions_per_pitch
+        middle = len(contact.phi) // 2
+        inside = contact.interior[middle - n // 4 : middle + n // 4 + 1]
+        if not inside.any():
+            words = "; ".join([*pair.faults, *reported]) or "no reason found"
+            return f"{direction}: no contact inside at the middle ({words})", residual, tolerance
+    faults = [*pair.faults, *reported]
+    return ("sound" if not faults else f"sound; reported: {faults[0]}"), residual, tolerance
+
+
+def main(count: int, target: Path) -> None:
+    """Design so many blanks and write the table."""
+    random = np.random.default_rng(SEED)
+    sound = 0
+    with target.open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file)
+        table.writerow(COLUMNS)
+        for number in range(1, count + 1):
+            one = draw(number, random)
+            start = time.perf_counter()
+            words, residual, tolerance = outcome(one)
+            sound += words.startswith("sound")
+            table.writerow(
+                [
+                    number, "face-hobbed" if one.hobbed else "face-milled",
+                    "" if one.hobbed else one.wheel, "exact" if one.hobbed else one.pinion,
+                    2 if one.hobbed else one.method, f"{one.z1}/{one.z2}", f"{one.module:.2f}",
+                    f"{degrees(one.shaft_angle):.1f}",
+                    f"{one.offset / (0.5 * one.module * one.z2):.3f}", f"{degrees(one.spiral):.1f}",
+                    f"{one.cutter:.1f}", f"{residual:.2f}", f"{tolerance:.2f}", words,
+                    f"{time.perf_counter() - start:.1f}",
+                ]
+            )  # fmt: skip
+            file.flush()
+    print(f"{sound} of {count} sound ({100.0 * sound / count:.1f} %)")
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]), Path(sys.argv[2]))

@@ -1,0 +1,181 @@
+"""The design file of a pair that is asked for by its blank: ISO 23509, a method a member, a contact.
+
+What ties several keys together stands in `_request_rules.py`.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from ._keys import (
+    DEG,
+    EPS,
+    LARGEST,
+    MOST_TEETH,
+    Angle,
+    Contact,
+    DesignTable,
+    Length,
+    Pair,
+    Table,
+    any_angle,
+    any_length,
+    key,
+)
+
+Share = Annotated[float, Field(ge=-1, le=1)]
+
+
+def _spiral() -> object:
+    return key("an angle from 0 to below 80 deg", "35 deg", default=None, ge=0, lt=80 * DEG - EPS)
+
+
+def _diameter(example: str) -> object:
+    return key("a length above 0", example, default=None, gt=0, le=2 * LARGEST)
+
+
+class RequestPair(Pair):
+    """[pair]."""
+
+    offset: Length = key("a length of 0 or more", "15 mm", ge=0, le=LARGEST)
+    normal_backlash: Length = key(
+        "a length of 0 or more, at the mean point", "0.15 mm", default="0.15 mm",
+        validate_default=True, ge=0, le=LARGEST,
+    )  # fmt: skip
+
+
+class RequestPinion(Table):
+    """[pinion]."""
+
+    teeth: int = key("a whole number from 1 to 1000", 13, ge=1, le=MOST_TEETH)
+    hand: Literal["left", "right"] = key('"left" or "right"', "left", default="left")
+    mean_spiral_angle: Angle | None = _spiral()  # pyright: ignore[reportAssignmentType]
+    method: Literal["tilt", "modified-roll", "generated", "helical", "universal"] = key(
+        '"tilt", "modified-roll", "generated", "helical" or "universal"', "tilt", default="tilt"
+    )
+    edge_radius: Length | None = key(
+        "a length of 0 or more, of the blades", "0.6 mm", default=None, ge=0, le=LARGEST
+    )
+
+
+class RequestWheel(Table):
+    """[wheel]; its size is a diameter or the module, one of them."""
+
+    teeth: int = key("a whole number from 1 to 1000", 42, ge=1, le=MOST_TEETH)
+    mean_spiral_angle: Angle | None = _spiral()  # pyright: ignore[reportAssignmentType]
+    outer_pitch_diameter: Length | None = _diameter("170 mm")  # pyright: ignore[reportAssignmentType]
+    mean_pitch_diameter: Length | None = _diameter("140 mm")  # pyright: ignore[reportAssignmentType]
+    outer_transverse_module: Length | None = key(
+        "a length above 0", "4 mm", default=None, gt=0, le=LARGEST
+    )
+    face_width: Length = key("a length above 0", "30 mm", gt=0, le=LARGEST)
+    method: Literal["formate", "generated"] = key(
+        '"formate" or "generated"', "formate", default="formate"
+    )
+    edge_radius: Length | None = key(
+        "a length of 0 or more, of the blades", "0.8 mm", default=None, ge=0, le=LARGEST
+    )
+
+
+class RequestBlank(Table):
+    """[blank]: ISO 23509's method, taper and tooth data of type II, or of type I."""
+
+    method: Literal[0, 1, 2, 3] = key("0, 1, 2 or 3, the method of ISO 23509", 1)
+    taper: Literal["standard", "uniform", "duplex", "modified"] = key(
+        '"standard", "uniform", "duplex" or "modified"', "standard", default="standard"
+    )
+    wheel_addendum_angle: Angle | None = any_angle("1 deg")
+    wheel_dedendum_angle: Angle | None = any_angle("4 deg")
+    mean_addendum_factor: float | None = key(
+        "a plain number from 0 to 1 (c_ham)", 0.35, default=None, ge=0, le=1
+    )
+    depth_factor: float | None = key(
+        "a plain number above 0, up to 4 (k_d)", 2.0, default=None, gt=0, le=4
+    )
+    clearance_factor: float | None = key(
+        "a plain number from 0 to 1 (k_c)", 0.125, default=None, ge=0, le=1
+    )
+    thickness_factor: float | None = key(
+        "a plain number from -1 to 1 (k_t)", 0.1, default=None, ge=-1, le=1
+    )
+    addendum_coefficient: float | None = key(
+        "a plain number above 0, up to 2 (k_hap)", 1.0, default=None, gt=0, le=2
+    )
+    dedendum_coefficient: float | None = key(
+        "a plain number above 0, up to 3 (k_hfp)", 1.25, default=None, gt=0, le=3
+    )
+    profile_shift: float | None = key(
+        "a plain number from -1 to 1 (x_hm1)", 0.3, default=None, ge=-1, le=1
+    )
+    thickness_modification: float | None = key(
+        "a plain number from -1 to 1 (x_smn)", 0.05, default=None, ge=-1, le=1
+    )
+
+
+class RequestCutting(Table):
+    """[cutting]: the process and its cutter."""
+
+    process: Literal["face-milled"] = key('"face-milled"', "face-milled")
+    cutter_radius: Length = key("a length above 0", "63.5 mm", gt=0, le=LARGEST)
+    pressure_angle: Angle = key(
+        "an angle above 0 and below 45 deg, of both sides", "20 deg", default="20 deg",
+        validate_default=True, gt=0, lt=45 * DEG - EPS,
+    )  # fmt: skip
+    limit_share: float = key(
+        "a plain number from 0 to 1: how far the sides are balanced about the limit pressure angle",
+        1.0, default=1.0, ge=0, le=1,
+    )  # fmt: skip
+
+
+class TargetTable(Table):
+    """[contact.drive], [contact.coast]: an ease-off by its parts, or a motion and a pattern."""
+
+    lengthwise_crowning: Length | None = any_length("15 um")
+    profile_crowning: Length | None = any_length("10 um")
+    bias: Length | None = any_length("0 um")
+    pressure_angle: Angle | None = any_angle("0 min")
+    spiral_angle: Angle | None = any_angle("0 min")
+    tip_relief: Length | None = any_length("10 um")
+    relief_from: float | None = key(
+        "a plain number from -1 (root) to 1 (tip)", 0.5, default=None, ge=-1, le=1
+    )
+    transmission_error: Angle | None = any_angle("50 urad")
+    pattern_length: float | None = key(
+        "a plain number above 0, up to 1: a share of the face", 0.5, default=None, ge=-10, le=10
+    )
+    place: list[Share] | None = key(
+        "two plain numbers, from -1 (toe, root) to 1 (heel, tip)", [0.0, 0.0], default=None,
+        min_length=2, max_length=2,
+    )  # fmt: skip
+    path_tilt: float | None = key(
+        "a plain number from -5 to 5: how far the path goes lengthwise while it climbs", 0.0,
+        default=None, ge=-5, le=5,
+    )  # fmt: skip
+
+
+class RequestContact(Contact):
+    """[contact]."""
+
+    tolerance: Length = key(
+        "a length above 0: how far a flank may keep from its target", "5 um", default="5 um",
+        validate_default=True, gt=0, le=1,
+    )  # fmt: skip
+    drive: TargetTable = key("a table", {"lengthwise_crowning": "15 um"}, default=TargetTable())
+    coast: TargetTable = key("a table", {"lengthwise_crowning": "15 um"}, default=TargetTable())
+
+
+class RequestFile(DesignTable):
+    """A design file of schema 1 whose [cutting] names a process: the program finds the settings."""
+
+    pair: RequestPair = key("a table", {"shaft_angle": "90 deg", "offset": "15 mm"})
+    pinion: RequestPinion = key("a table", {"teeth": 13, "mean_spiral_angle": "50 deg"})
+    wheel: RequestWheel = key(
+        "a table", {"teeth": 42, "outer_pitch_diameter": "170 mm", "face_width": "30 mm"}
+    )
+    blank: RequestBlank = key("a table", {"method": 1})
+    cutting: RequestCutting = key("a table", {"process": "face-milled", "cutter_radius": "63.5 mm"})
+    contact: RequestContact = key(  # pyright: ignore[reportIncompatibleVariableOverride]
+        "a table", {"tolerance": "5 um"}, default=RequestContact()
+    )

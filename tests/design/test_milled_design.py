@@ -1,0 +1,244 @@
+"""Face-milled pairs from their blank: wheel in closed form, pinion exactly conjugate or to a target."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from math import degrees, pi, radians
+from typing import Any
+
+import numpy as np
+import pytest
+
+from hypoid.blank import BlankRequest, TaperAngles, TypeII, iso_blank
+from hypoid.contact import ease_off, unloaded_contact
+from hypoid.design import (
+    EaseOffTarget,
+    MilledDesign,
+    MilledRequest,
+    MotionTarget,
+    build,
+    design_milled,
+)
+from hypoid.design._conjugate import conjugate
+from hypoid.design._milled_wheel import milled_wheel, pitch_cone
+from hypoid.design._pinion_fit import conjugate_start
+from hypoid.design._pinion_model import lead_of, pinion_model
+from hypoid.design._settings_model import NAMES, flank_at
+from hypoid.flank import flank_angles
+from hypoid.geometry import DesignError
+from hypoid.pair import GearPair
+
+BLANK = BlankRequest(  # sample F.3 of ISO 23509
+    1, 13, 42, pi / 2, 15.0, 30.0, 63.5, radians(50.0), "pinion",
+    wheel_outer_diameter=170.0, tooth=TypeII(0.35, 2.0, 0.125, 0.1),
+    taper=TaperAngles(radians(1.0), radians(4.0)),
+)  # fmt: skip
+REQUEST = MilledRequest("13 x 42", "", (), BLANK)
+SIDES: tuple[Any, ...] = ("concave", "convex")
+
+
+@cache
+def designed(wheel: Any, pinion: Any) -> tuple[MilledDesign, GearPair]:
+    made = design_milled(replace(REQUEST, wheel_method=wheel, pinion_method=pinion))
+    return made, build(made.spec)
+
+
+@pytest.mark.parametrize("hand", ["left", "right"])
+def test_formate_wheel_has_the_blanks_angles_and_tooth_at_the_mean_point(hand: Any) -> None:
+    """From the exact flanks: 17.747 and 22.253 deg, 38.610 deg spiral, s_mn2."""
+    request = replace(REQUEST, blank=replace(BLANK, pinion_hand=hand))
+    blank = iso_blank(request.blank)
+    wheel = milled_wheel(request, blank)
+    at = blank.wheel.mean_cone_distance
+    concave, convex = (flank_angles(wheel.flank(side), at) for side in SIDES)
+    own = blank.pressure_angles
+    assert own is not None
+    assert concave.pressure == pytest.approx(own.coast, abs=1e-9)
+    assert convex.pressure == pytest.approx(own.drive, abs=1e-9)
+    spiral = 0.5 * (concave.spiral + convex.spiral)
+    assert spiral == pytest.approx(blank.wheel.mean_spiral_angle, abs=1e-9)
+    angles = [float(wheel.flank(side).left_angle([at], [0.0])[0]) for side in SIDES]
+    slot = (angles[0] - angles[1]) * 0.5 * blank.wheel.mean_pitch_diameter
+    tooth = 2.0 * pi / 42 * 0.5 * blank.wheel.mean_pitch_diameter - slot
+    assert blank.wheel.thickness is not None
+    assert tooth * np.cos(spiral) == pytest.approx(blank.wheel.thickness.mean_normal, abs=1e-8)
+
+
+def test_generated_wheel_has_the_blanks_angles_within_a_few_minutes() -> None:
+    request = replace(REQUEST, wheel_method="generated")
+    blank = iso_blank(BLANK)
+    wheel = milled_wheel(request, blank)
+    own = blank.pressure_angles
+    assert own is not None
+    for side, pressure in (("concave", own.coast), ("convex", own.drive)):
+        found = flank_angles(wheel.flank(side), blank.wheel.mean_cone_distance)  # pyright: ignore
+        assert degrees(found.pressure) == pytest.approx(degrees(pressure), abs=0.01)
+        assert degrees(found.spiral) == pytest.approx(38.61, abs=0.7)  # each side, about the mean
+
+
+@pytest.mark.parametrize("side", SIDES)
+@pytest.mark.parametrize(
+    ("sigma", "offset"), [(90.0, 15.0), (90.0, 0.0), (75.0, 10.0), (100.0, 8.0)]
+)
+def test_the_start_is_the_form_cut_wheels_exact_conjugate(
+    side: Any, sigma: float, offset: float
+) -> None:
+    """Same cutter axis, blades of the opposite kind, cradle along the wheel's axis: zero ease-off."""
+    given = replace(BLANK, shaft_angle=radians(sigma), offset=offset, method=1 if offset else 0)
+    request = replace(REQUEST, blank=given)
+    blank = iso_blank(given)
+    wheel = milled_wheel(request, blank)
+    cone = pitch_cone(blank, "pinion")
+    mate = wheel.flank("convex" if side == "concave" else "concave")
+    found = conjugate(blank, mate, cone)
+    start = conjugate_start(wheel, blank, side)
+    flat = EaseOffTarget(0.0, 0.0)
+    model = pinion_model(
+        side, found, blank, cone, start, lead_of(found, start), found.roll, flat, 1.0
+    )
+    seen = model.look(start, {}, model.start_memory)
+    assert seen is not None
+    assert model.there.mean() > 0.6
+    assert np.abs(seen.ease_off[model.there]).max() < 1e-10
+
+
+def test_the_conjugate_start_transmits_uniformly() -> None:
+    """Through the ordinary way, build and contact: no transmission error on the drive side."""
+    made, _ = designed("formate", "tilt")
+    from hypoid.design._milled_design import _dials
+    from hypoid.design._pinion_fit import plain_settings
+    from hypoid.design._settings_model import INDEX
+
+    start = conjugate_start(made.wheel, made.blank, "concave")
+    apex = made.blank.pinion.pitch_apex_beyond_crossing_point
+    flank = made.spec.pinion.concave
+    blade = replace(
+        flank.blade,
+        point_radius=float(start[INDEX["point_radius"]]),
+        angle=float(start[INDEX["blade_angle"]]),
+    )
+    exact = replace(flank, dials=_dials(plain_settings(start), apex), blade=blade)
+    spec = replace(made.spec, pinion=replace(made.spec.pinion, concave=exact))
+    contact = unloaded_contact(build(spec), "drive")
+    middle = len(contact.phi) // 2
+    near = contact.curve[middle - 8 : middle + 9]
+    assert (
+        np.ptp(near) < 1e-7
+    )  # contact is a line, which has no point to refine: the grid's own noise
+
+
+@pytest.mark.parametrize(
+    ("wheel", "pinion", "largest"),
+    [
+        ("formate", "tilt", 5.0),
+        ("formate", "modified-roll", 5.0),
+        ("formate", "helical", 5.0),
+        ("formate", "universal", 1.0),
+        ("generated", "tilt", 5.0),
+        ("generated", "modified-roll", 2.0),
+    ],
+)
+def test_the_asked_ease_off_is_met(wheel: str, pinion: str, largest: float) -> None:
+    """The fit's own residual, and the ease-off that the built pair shows by another way."""
+    made, pair = designed(wheel, pinion)
+    for side, direction in (("concave", "drive"), ("convex", "coast")):
+        fit = made.fits[side]  # pyright: ignore[reportArgumentType]
+        assert 1e3 * fit.largest < largest
+        contact = unloaded_contact(pair, direction)  # pyright: ignore[reportArgumentType]
+        assert not contact.edge_contact
+        assert np.isfinite(contact.peak_to_peak)
+        seen = ease_off(contact)
+        # contact counts profile crowning over half the active depth, the target over half the working one
+        deep = (
+            0.5
+            * float((seen.height[-1] - seen.height[0]).mean())
+            / (0.5 * made.blank.depths.working_depth)
+        )  # pyright: ignore
+        assert seen.lengthwise_crowning == pytest.approx(0.015, abs=0.003)
+        assert seen.profile_crowning == pytest.approx(0.010 * deep**2, abs=0.0045)
+        assert abs(seen.bias) < 0.003
+        assert seen.residual < 0.002
+    assert not pair.faults
+
+
+def test_no_tilt_where_the_method_has_none() -> None:
+    """Then the tips run along the root cone: the fit finds the root angle by itself."""
+    made, _ = designed("formate", "modified-roll")
+    for fit in made.fits.values():
+        assert fit.settings.tilt_angle == 0.0
+        assert degrees(fit.settings.machine_root_angle) == pytest.approx(
+            degrees(made.blank.pinion.root_angle), abs=0.05
+        )
+
+
+def test_a_method_that_falls_short_says_how_far_and_what_would_help() -> None:
+    made, _ = designed("formate", "generated")
+    (first, *_) = made.faults
+    assert "um from its target" in first
+    assert "these would help" in first
+
+
+def test_transmission_error_and_pattern_as_asked() -> None:
+    """A parabola of 54 and 57 urad, and a pattern over 60 % of the face, on universal motions."""
+    request = replace(
+        REQUEST,
+        pinion_method="universal",
+        drive=MotionTarget(54e-6, 0.6),
+        coast=MotionTarget(57e-6, 0.6),
+    )
+    pair = build(design_milled(request).spec)
+    for direction, asked in (("drive", 54e-6), ("coast", 57e-6)):
+        contact = unloaded_contact(pair, direction)  # pyright: ignore[reportArgumentType]
+        assert contact.peak_to_peak == pytest.approx(asked, rel=0.05)
+        middle = len(contact.phi) // 2
+        assert contact.interior[middle - 10 : middle + 11].all()
+
+
+def test_jacobian_of_the_flank_by_every_entry() -> None:
+    """n . dr/dp against Richardson's differences of the flank's angle times its lever."""
+    made, _ = designed("formate", "universal")
+    fit = made.fits["concave"]
+    found = conjugate(made.blank, made.wheel.convex, pitch_cone(made.blank, "pinion"))
+    start = fit.vector
+    at = np.flatnonzero(np.isfinite(fit.residual))[::7]
+    z, rho = found.z[at], found.rho[at]
+    angles = made.blank.pinion
+    lead = (found.height[at] + angles.mean_dedendum) / np.cos(fit.blade_angle)
+
+    def look(vector: Any) -> Any:
+        return flank_at(vector, 1.0, 1.0, 1.0, 0.0, z, rho, lead, found.roll[at])
+
+    here = look(start)
+    assert np.all(here[3] < 1e-10)
+    lead = here[0]
+    for k, name in enumerate(NAMES):
+        if name == "blade_curvature":
+            continue  # a straight blade's 1/R: in the same form, checked at another size below
+        differences = []
+        for h in (2e-4, 1e-4):
+            up, down = start.copy(), start.copy()
+            up[k] += h
+            down[k] -= h
+            differences.append((look(up)[2] - look(down)[2]) / (2.0 * h) * here[4])
+        exact = (4.0 * differences[1] - differences[0]) / 3.0
+        size = max(1e-3, float(np.abs(exact).max()))
+        assert np.abs(here[6 + k] - exact).max() < 1e-7 * size + 1e-8, name
+
+
+def test_nonsense_targets_are_told_with_their_keys() -> None:
+    bad = replace(
+        REQUEST,
+        drive=MotionTarget(50e-6, pattern_length=-0.3),
+        coast=EaseOffTarget(-0.01, -0.01),
+        tolerance=0.0,
+    )
+    with pytest.raises(DesignError) as caught:
+        design_milled(bad)
+    paths = [problem.path for problem in caught.value.problems]
+    assert paths == [
+        "contact.drive.pattern_length",
+        "contact.coast.lengthwise_crowning",
+        "contact.coast.profile_crowning",
+        "contact.tolerance",
+    ]
