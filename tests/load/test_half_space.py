@@ -113,7 +113,9 @@ def test_says_so_when_nothing_can_carry() -> None:
 
 def test_love_against_quadrature() -> None:
     for x, y in ((0.9, 0.4), (2.0, -1.3)):
-        found, _ = dblquad(lambda v, u: 1.0 / np.hypot(u - x, v - y), -0.5, 0.5, -0.25, 0.25)
+        found, _ = dblquad(
+            lambda v, u, x, y: 1.0 / np.hypot(u - x, v - y), -0.5, 0.5, -0.25, 0.25, args=(x, y)
+        )
         assert rectangle(np.array(x), np.array(y), 1.0, 0.5) == pytest.approx(found, rel=1e-8)
 
 

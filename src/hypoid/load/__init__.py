@@ -3,3 +3,10 @@
 from ._active_set import ContactSolution as ContactSolution
 from ._active_set import Outcome as Outcome
 from ._active_set import solve_contact as solve_contact
+from ._compliance import Elements as Elements
+from ._compliance import Support as Support
+from ._compliance import ToothCompliance as ToothCompliance
+from ._compliance import tooth_compliance as tooth_compliance
+from ._material import STEEL as STEEL
+from ._material import Material as Material
+from ._material import material as material
