@@ -45,6 +45,7 @@ class ContactSolution:
     gap: Array  # (n,) mm under load, zero where cells touch
     rounds: int
     outcome: Outcome
+    stiffness: float = 0.0  # dT/dphi of the cells that touch, N mm/rad
 
     @property
     def touching(self) -> Array:
@@ -82,7 +83,8 @@ def solve_contact(
         pulls = active & (force <= 0.0)
         cuts = ~active & able & (under < -OVERLAP)
         if not pulls.any() and not cuts.any():
-            return ContactSolution(force, phi, under, count, Outcome.OK)
+            slope = float(lever[on] @ by_lever)
+            return ContactSolution(force, phi, under, count, Outcome.OK, slope)
         # the same set again is a cycle: from there on cells only leave, until those that cut join once more
         after = (active & ~pulls) if shrink and pulls.any() else (active & ~pulls) | cuts
         key = np.packbits(after).tobytes()

@@ -16,7 +16,10 @@ from hypoid.contact import Mounting, UnloadedContact, angle_field, lead, to_pini
 
 Array = np.ndarray[Any, Any]
 COLUMNS, ROWS = 25, 11  # cells along the contact and across
-STENCIL, REACH = 9, 0.1  # points each way and whole depths, for the curvature where the pair touches first
+STENCIL, REACH = (
+    9,
+    0.1,
+)  # points each way and whole depths, for the curvature where the pair touches first
 SECANTS = 6
 STEP = 1e-3  # mm, of differences
 STRAIGHT = 2e-5  # 1/mm: the least relative curvature that a first patch counts with

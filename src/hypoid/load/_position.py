@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,10 @@ from ._patch import COLUMNS, ROWS, Meeting, Patch, Window, patch
 
 Array = np.ndarray[Any, Any]
 TRIES = 14  # windows that are tried
-GROW, MARGIN = 0.3, 0.1  # of the contact's length: a side that is touched moves out, others stand off
+GROW, MARGIN = (
+    0.3,
+    0.1,
+)  # of the contact's length: a side that is touched moves out, others stand off
 USED = 0.55  # of a window's length that the contact fills, at least
 EDGE = 0.3  # mm from tip, toe or heel: pressure there is a sharp edge's, and moves with the cells
 AWAY = 0.05  # share of a window: the least first contact
@@ -50,7 +54,7 @@ class PositionContact:
     def parts(self) -> tuple[slice, ...]:
         """Which cells of the solution are each patch's."""
         ends = np.cumsum([0, *(p.count for p in self.patches)])
-        return tuple(slice(a, b) for a, b in zip(ends[:-1], ends[1:], strict=True))
+        return tuple(slice(a, b) for a, b in pairwise(ends.tolist()))
 
     @property
     def windows(self) -> dict[int, Window]:
@@ -91,7 +95,9 @@ def position_contact(
         if not moved and not late:
             return PositionContact(tuple(used), solution, Outcome.OK, False)
         for m in late:
-            patches[m.pair] = patch(m, known.get(m.pair) or _first_window(m, teeth, torque / len(ranked)))
+            patches[m.pair] = patch(
+                m, known.get(m.pair) or _first_window(m, teeth, torque / len(ranked))
+            )
         for p in used:
             if (window := moved.get(p.meeting.pair)) is not None:
                 patches[p.meeting.pair] = patch(p.meeting, window)

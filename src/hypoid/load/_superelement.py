@@ -125,15 +125,14 @@ class Ring:
     seen: dict[int, Array]  # (r, h)
 
 
-def ring(one: Superelement, teeth: int, reach: int) -> Ring:
-    """A closed ring of `teeth` copies, answers up to `reach` teeth away."""
+def ring(one: Superelement, teeth: int, reach: int, sight: int) -> Ring:
+    """A closed ring of `teeth` copies: compliance up to `reach` teeth away, what is seen up to `sight`."""
     c = len(one.cut) // 2
     (a00, a01), (a10, a11) = ((one.cut[i : i + c, :c], one.cut[i : i + c, c:]) for i in (0, c))
     g0, g1 = one.hat_to_cut[:c], one.hat_to_cut[c:]
     s0, s1 = one.seen_of_cut[:, :c], one.seen_of_cut[:, c:]
-    away = sorted({n % teeth for n in range(-reach, reach + 1)})
-    compliance = {n: np.zeros_like(one.hat) for n in away}
-    seen = {n: np.zeros_like(one.seen) for n in away}
+    compliance = {n % teeth: np.zeros_like(one.hat) for n in range(-reach, reach + 1)}
+    seen = {n % teeth: np.zeros_like(one.seen) for n in range(-sight, sight + 1)}
     for m in range(teeth // 2 + 1):
         twice = 1.0 if 2 * m % teeth == 0 else 2.0  # m and teeth - m are conjugates
         z = np.exp(2j * np.pi * m / teeth)
@@ -143,11 +142,11 @@ def ring(one: Superelement, teeth: int, reach: int) -> Ring:
             border, drive, z = border.real, drive.real, 1.0
         moved = np.linalg.solve(border, drive)
         answer = drive.conj().T @ moved
-        sight = (s0 + s1 * z) @ moved if len(s0) else np.zeros_like(one.seen)
-        for n in away:
-            phase = twice * z**n / teeth
-            compliance[n] += (phase * answer).real
-            seen[n] += (phase * sight).real
+        glance = (s0 + s1 * z) @ moved
+        for n, total in compliance.items():
+            total += (twice * z**n / teeth * answer).real
+        for n, total in seen.items():
+            total += (twice * z**n / teeth * glance).real
     compliance[0] += one.hat
     seen[0] += one.seen
     return Ring(compliance, seen)
