@@ -24,6 +24,7 @@ from ._position import EDGE, PositionContact, Teeth, position_contact
 Array = np.ndarray[Any, Any]
 Progress = Callable[[str, int, int], None]
 FINE = 40  # positions a pitch of the unloaded contact, at least
+GROWN = 2.0  # times: the most that a contact is thought to grow from one torque to the next
 
 
 @dataclass(frozen=True, eq=False)
@@ -206,16 +207,24 @@ def solved_positions(
     step = unloaded.sampling.positions_per_pitch // per_pitch
     half = unloaded.sampling.pairs // 2
     start = len(unloaded.phi) // 2
+    before: list[dict[int, Window]] = []  # of the last position, by torque
     for k in range(per_pitch):
         at = start + k * step
         found = (meeting(unloaded, at, n) for n in range(-half, half + 1))
         meetings = [m for m in found if m is not None]
-        windows: dict[int, Window] = {}
+        after: list[dict[int, Window]] = []
         row: list[LoadedPosition] = []
-        for torque in torques:
+        for t, torque in enumerate(torques):
+            windows: dict[int, Window] = {}
+            if before:
+                windows = before[t]
+            elif t:
+                grown = min((torque / torques[t - 1]) ** (1.0 / 3.0), GROWN)
+                windows = {n: w.scaled(grown) for n, w in after[-1].items()}
             contact = position_contact(meetings, teeth, torque, windows)
-            windows = contact.windows
+            after.append(contact.windows)
             row.append(_position(unloaded, teeth, at, torque, contact))
+        before = after
         yield row
 
 

@@ -20,7 +20,7 @@ STENCIL, REACH = (
     9,
     0.1,
 )  # points each way and whole depths, for the curvature where the pair touches first
-SECANTS = 6
+SECANTS, ARRIVED = 8, 1e-13  # most steps, and when they end, rad
 STEP = 1e-3  # mm, of differences
 STRAIGHT = 2e-5  # 1/mm: the least relative curvature that a first patch counts with
 
@@ -37,6 +37,7 @@ class Meeting:
     axes: Array  # (3, 3) rows: along the contact, across, pinion's outward normal
     curvature: tuple[float, float]  # 1/mm, along and across, of the gap
     gap: float  # mm, least
+    lever: float  # of the pinion there, mm
 
     def surface(self, a: Array, b: Array) -> Surface:
         """The pinion's points on rays at (a, b), mm, of the tangent plane."""
@@ -52,6 +53,8 @@ class Meeting:
         last, now = miss(height), miss(height + STEP)
         before, height = height, height + STEP
         for _ in range(SECANTS):
+            if not np.abs(now).max(initial=0.0) > ARRIVED:
+                break
             slope = (now - last) / np.where(height == before, np.inf, height - before)
             step = np.where(slope == 0.0, 0.0, -now / np.where(slope == 0.0, 1.0, slope))
             step = np.clip(np.nan_to_num(step), -1.0, 1.0)
@@ -59,14 +62,9 @@ class Meeting:
             height = height + step
             now = miss(height)
         point = foot + height[:, None] * self.axes[2]
-        slopes = np.stack(
-            [
-                _miss(mount, pinion, phi, point + STEP * axis)
-                - _miss(mount, pinion, phi, point - STEP * axis)
-                for axis in self.axes
-            ],
-            axis=1,
-        )
+        moves = STEP * np.concatenate([self.axes, -self.axes])
+        around = _miss(mount, pinion, phi, (point + moves[:, None]).reshape(-1, 3)).reshape(6, -1)
+        slopes = (around[:3] - around[3:]).T
         normal = slopes @ self.axes
         normal *= (np.sign(slopes[:, 2]) / np.linalg.norm(normal, axis=1))[:, None]
         return Surface(self, point, normal, pinion, wheel)
@@ -142,13 +140,15 @@ def meeting(contact: UnloadedContact, position: int, pair: int) -> Meeting | Non
     first = np.cross(out, (0.0, 0.0, 1.0))
     first /= np.linalg.norm(first)
     axes = np.array([first, np.cross(out, first), out])
-    rough = Meeting(contact, pair, phi, float(rigid), origin, axes, (STRAIGHT, STRAIGHT), 0.0)
-    lever = float(rough.surface(np.zeros(1), np.zeros(1)).levers[1][0])
-    gap = (float(rigid) - float(contact.curve[own])) * lever
+    rough = Meeting(contact, pair, phi, float(rigid), origin, axes, (STRAIGHT, STRAIGHT), 0.0, 0.0)
+    levers = rough.surface(np.zeros(1), np.zeros(1)).levers
+    gap = (float(rigid) - float(contact.curve[own])) * float(levers[1][0])
     turn, curvature = _curvature(rough, contact.pinion_flank)
     c, s = np.cos(turn), np.sin(turn)
     axes = np.array([c * axes[0] + s * axes[1], c * axes[1] - s * axes[0], out])
-    return Meeting(contact, pair, phi, float(rigid), origin, axes, curvature, gap)
+    return Meeting(
+        contact, pair, phi, float(rigid), origin, axes, curvature, gap, float(levers[0][0])
+    )
 
 
 def _half(contact: UnloadedContact) -> int:
@@ -179,6 +179,15 @@ class Window:
 
     along: tuple[float, float]
     across: tuple[float, float]
+
+    def scaled(self, by: float) -> Window:
+        """The same about its own middle, `by` times as long and wide."""
+
+        def one(ends: tuple[float, float]) -> tuple[float, float]:
+            middle, half = 0.5 * (ends[0] + ends[1]), 0.5 * by * (ends[1] - ends[0])
+            return middle - half, middle + half
+
+        return Window(one(self.along), one(self.across))
 
 
 @dataclass(frozen=True, eq=False)

@@ -23,7 +23,7 @@ GROW, MARGIN = (
 )  # of the contact's length: a side that is touched moves out, others stand off
 USED = 0.55  # of a window's length that the contact fills, at least
 EDGE = 0.3  # mm from tip, toe or heel: pressure there is a sharp edge's, and moves with the cells
-AWAY = 0.05  # share of a window: the least first contact
+FILLED = 0.45  # share of a patch, nearest first, that is thought to touch
 
 
 @dataclass(frozen=True)
@@ -53,8 +53,7 @@ class PositionContact:
     @property
     def parts(self) -> tuple[slice, ...]:
         """Which cells of the solution are each patch's."""
-        ends = np.cumsum([0, *(p.count for p in self.patches)])
-        return tuple(slice(a, b) for a, b in pairwise(ends.tolist()))
+        return _parts(self.patches)
 
     @property
     def windows(self) -> dict[int, Window]:
@@ -75,17 +74,21 @@ def position_contact(
         m.pair: patch(m, known.get(m.pair) or _first_window(m, teeth, torque / len(chosen)))
         for m in chosen
     }
-    start: Array | None = None
+    touched: dict[int, Array] = {}
     found: PositionContact | None = None
     for _ in range(TRIES):
         used = [p for p in patches.values() if p.count]
         if not used:
             break
-        solution = _solve(used, teeth, torque, start)
+        solution = _solve(used, teeth, torque, touched)
+        touched = {
+            p.meeting.pair: solution.touching[part]
+            for p, part in zip(used, _parts(used), strict=True)
+        }
         found = PositionContact(tuple(used), solution, solution.outcome, True)
         if solution.outcome is not Outcome.OK:
             break
-        closing = {m.pair: solution.rotation * float(_lever(m)) for m in ranked}
+        closing = {m.pair: solution.rotation * m.lever for m in ranked}
         late = [m for m in ranked if m.pair not in patches and m.gap < closing[m.pair]]
         moved = {
             p.meeting.pair: after
@@ -101,20 +104,16 @@ def position_contact(
         for p in used:
             if (window := moved.get(p.meeting.pair)) is not None:
                 patches[p.meeting.pair] = patch(p.meeting, window)
-        start = None
+                del touched[p.meeting.pair]
     if found is None:
         nothing = ContactSolution(np.zeros(0), 0.0, np.zeros(0), 0, Outcome.NO_CONTACT)
         return PositionContact((), nothing, Outcome.NO_CONTACT, False)
     return found
 
 
-def _lever(met: Meeting) -> float:
-    return float(met.surface(np.zeros(1), np.zeros(1)).levers[0][0])
-
-
 def _first_window(met: Meeting, teeth: Teeth, torque: float) -> Window:
     """Where a line contact of this force would be: half lengths by the approach it needs."""
-    force = max(torque, 1.0) / max(_lever(met), 1e-3)
+    force = max(torque, 1.0) / max(met.lever, 1e-3)
     low, high = met.curvature
     approach = (6.0 * force / (np.pi * teeth.plane_modulus * np.sqrt(8.0 / low))) ** (2.0 / 3.0)
     flank = met.contact.pinion_flank
@@ -123,11 +122,25 @@ def _first_window(met: Meeting, teeth: Teeth, torque: float) -> Window:
     return Window((-a, a), (-min(b, a), min(b, a)))
 
 
+def _parts(patches: Sequence[Patch]) -> tuple[slice, ...]:
+    ends = np.cumsum([0, *(p.count for p in patches)])
+    return tuple(slice(a, b) for a, b in pairwise(ends.tolist()))
+
+
 def _solve(
-    patches: Sequence[Patch], teeth: Teeth, torque: float, start: Array | None
+    patches: Sequence[Patch], teeth: Teeth, torque: float, touched: Mapping[int, Array]
 ) -> ContactSolution:
+    """Contact of these cells; where it is not known which touch, those with the least gaps of their patch."""
     gap = np.concatenate([p.gap for p in patches])
     lever = np.concatenate([p.pinion_lever for p in patches])
+    start = np.concatenate(
+        [
+            touched[p.meeting.pair]
+            if p.meeting.pair in touched
+            else p.gap <= np.quantile(p.gap, FILLED)
+            for p in patches
+        ]
+    )
     return solve_contact(compliance(patches, teeth), gap, lever, torque, start)
 
 
