@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-
 from conftest import RELIEF, TABLE_1
+
 from hypoid.contact import to_wheel
 from hypoid.design import build
 from hypoid.geometry import DesignError

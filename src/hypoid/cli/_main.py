@@ -19,6 +19,8 @@ _COMMANDS = {
     "settings": "Basic machine settings of the four flanks, as on a summary sheet.",
     "flank": "Points and normals of one flank on a grid, to CSV or JSON.",
     "contact": "Unloaded contact of both directions: path, transmission error, contact ratio.",
+    "load": "Loaded contact per torque: pressure, load sharing, transmission error, root stress.",
+    "stress": "Stress in both root fillets over the mesh cycle, per torque.",
     "export": "Teeth with their body for CAD, printing, viewing and analysis: STL, GLB, STEP, INP and more.",
     "report": "One HTML file with everything above, drawn.",
     "examples": "The design files that ship with the program.",

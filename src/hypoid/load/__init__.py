@@ -17,3 +17,8 @@ from ._material import Material as Material
 from ._material import material as material
 from ._root_stress import RootStress as RootStress
 from ._root_stress import root_stress as root_stress
+from ._setup import MESHES as MESHES
+from ._setup import assumptions as assumptions
+from ._setup import pair_compliance as pair_compliance
+from ._setup import rim_thickness as rim_thickness
+from ._setup import warnings as warnings
