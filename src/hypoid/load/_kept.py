@@ -37,7 +37,7 @@ def kept(
         handle, part = tempfile.mkstemp(dir=folder)
         try:
             with os.fdopen(handle, "wb") as file:
-                np.savez(file, **made)
+                np.savez(file, **made)  # pyright: ignore[reportArgumentType]
             Path(part).replace(path)
         except BaseException:
             Path(part).unlink(missing_ok=True)

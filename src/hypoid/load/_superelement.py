@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import splu
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
 Array = np.ndarray[Any, Any]
 Progress = Callable[[str, int, int], None]
@@ -111,7 +111,7 @@ def matched(nodes: Array, low: Array, high: Array, pitch: float) -> Array:
     """`high` in the order of `low`: each the other turned by the pitch about z."""
     c, s = np.cos(pitch), np.sin(pitch)
     x, y, z = nodes[low].T
-    away, index = cKDTree(nodes[high]).query(np.stack([c * x - s * y, s * x + c * y, z], axis=1))
+    away, index = KDTree(nodes[high]).query(np.stack([c * x - s * y, s * x + c * y, z], axis=1))
     if float(np.max(away)) > MATCH:
         raise ValueError("the cut faces of this mesh are not each other turned by a pitch")
     return high[index]

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from scipy.ndimage import maximum_filter
 
 from hypoid.flank import Flank
 from hypoid.load import LoadCase, LoadedContact, RootStress
@@ -30,6 +31,7 @@ from ._style import (
 
 PAIRS = (BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY)
 URAD = 1e6
+BINS = (90, 40)  # of a flank's map, along and across
 
 
 def loaded_contact_figure(loaded: LoadedContact) -> Figure:
@@ -66,11 +68,20 @@ def _pressures(axes: Axes, flank: Flank, case: LoadCase, member: str) -> Any:
         for name in ("distance", "height")
     )
     pressure = np.concatenate([p.pressure for p in loads])
-    on = pressure > 0.0
-    order = np.flatnonzero(on)[np.argsort(pressure[on])]
-    return axes.scatter(
-        s[order], h[order], c=pressure[order], s=2.5, cmap=MAP, vmin=0.0, vmax=case.max_pressure,
-        linewidths=0.0, rasterized=True,
+    columns = np.linspace(flank.toe, flank.heel, BINS[0] + 1)
+    rows = np.linspace(
+        float(flank.root.at(flank.heel)), float(flank.tip.at(flank.heel)), BINS[1] + 1
+    )
+    i, j = (
+        np.clip(np.searchsorted(edges, v) - 1, 0, len(edges) - 2)
+        for edges, v in ((columns, s), (rows, h))
+    )
+    most = np.zeros(BINS)
+    np.maximum.at(most, (i, j), pressure)
+    most = maximum_filter(most, 3)  # positions are steps apart: the swept area, not its stripes
+    return axes.pcolormesh(
+        columns, rows, np.where(most > 0.0, most, np.nan).T, cmap=MAP, vmin=0.0, vmax=case.max_pressure,
+        rasterized=True,
     )  # fmt: skip
 
 
@@ -115,12 +126,13 @@ def _histories(axes: Axes, case: LoadCase) -> None:
     count.set_ylabel("pairs in contact", color=ORANGE)
     count.set_ylim(0.0, max(len(p.pairs) for p in case.positions) + 1.5)
     count.spines["right"].set_visible(True)
+    axes.set_ylim(axes.get_ylim()[0] - 0.4 * np.ptp(axes.get_ylim()))
     axes.set_title(f"At {case.torque * 1e-3:g} N m: contact ratio {case.contact_ratio:.2f}")
     axes.legend(loc="lower left")
 
 
 def _by_pair(axes: Axes, case: LoadCase, value: Any, label: str) -> None:
-    """One line a tooth pair; the same colour is the same pair."""
+    """One line a tooth pair, with its number."""
     pairs = sorted({p.pair for at in case.positions for p in at.pairs})
     for k in pairs:
         found = [
@@ -130,13 +142,12 @@ def _by_pair(axes: Axes, case: LoadCase, value: Any, label: str) -> None:
             if p.pair == k
         ]
         axes.plot(*zip(*found, strict=True), "o-", markersize=2.5, color=PAIRS[k % len(PAIRS)])
-        x, y = max(found, key=lambda point: point[1])
-        axes.annotate(f"pair {k}", (x, y), xytext=(0, 4), textcoords="offset points", fontsize=7,
+        middle = found[len(found) // 2]
+        axes.annotate(f"{k}", middle, xytext=(0, 4), textcoords="offset points", fontsize=7.5,
                       ha="center", color="#444b57")  # fmt: skip
     axes.set_xlabel("pinion angle [deg]")
     axes.set_ylabel(label)
     axes.set_ylim(bottom=0.0)
-    axes.margins(y=0.12)
 
 
 def root_stress_figure(torque: float, stress: Mapping[str, RootStress]) -> Figure:
