@@ -151,39 +151,31 @@ def _by_pair(axes: Axes, case: LoadCase, value: Any, label: str) -> None:
 
 
 def root_stress_figure(torque: float, stress: Mapping[str, RootStress]) -> Figure:
-    """Maximum principal stress over both fillets and against pinion angle, one row a member."""
+    """Greatest tension below the loaded flank, greatest compression opposite, and both against pinion angle."""
     drawn = figure(5.6)
     grid = drawn.subplots(2, 3, width_ratios=(1.0, 1.0, 1.1))
     for row, (name, found) in zip(grid, stress.items(), strict=True):
-        sides = (found.loaded_side, 1 - found.loaded_side)
-        peak = max(found.max_principal, 1e-9)
-        for axes, side in zip(row, sides, strict=False):
+        loaded = found.loaded_side
+        tension, compression = found.greatest.max(axis=0), -found.least.min(axis=0)
+        for axes, side, value, kind in (
+            (row[0], loaded, tension, "greatest tension"),
+            (row[1], 1 - loaded, compression, "greatest compression"),
+        ):
             own = found.side == side
-            most = found.greatest[:, own].max(axis=0)
-            painted = axes.tricontourf(
-                found.distance[own],
-                found.height[own],
-                most,
-                levels=12,
-                cmap=MAP,
-                vmin=0.0,
-                vmax=peak,
-            )
+            at = found.distance[own], found.height[own]
+            levels = np.linspace(0.0, max(float(value[own].max()), 1e-9), 13)
+            painted = axes.tricontourf(*at, np.maximum(value[own], 0.0), levels=levels, cmap=MAP)
             flank = "concave" if side == 0 else "convex"
-            kind = "below the loaded flank" if side == found.loaded_side else "opposite"
-            axes.set_title(f"{name} {flank} fillet, {kind}")
+            which = "loaded side" if side == loaded else "opposite"
+            axes.set_title(f"{name} {flank} fillet, {which}")
             axes.set_xlabel("cone distance S [mm], toe to heel")
             axes.set_ylabel("height H [mm], root to flank")
-            drawn.colorbar(painted, ax=axes, label="greatest tension [MPa]")
+            drawn.colorbar(painted, ax=axes, label=f"{kind} [MPa]", format="%.0f")
             if side == found.side[found.critical]:
-                axes.plot(
-                    found.distance[found.critical],
-                    found.height[found.critical],
-                    "x",
-                    color=VERMILION,
-                )
+                k = found.critical
+                axes.plot(found.distance[k], found.height[k], "x", color=VERMILION)
         _over_time(row[2], found, PINION if name == "pinion" else WHEEL)
-        row[2].set_title(f"{name}, {torque * 1e-3:g} N m: at the place of the greatest tension")
+        row[2].set_title(f"{name}: at the cross, {torque * 1e-3:g} N m")
     return drawn
 
 
@@ -193,6 +185,8 @@ def _over_time(axes: Axes, found: RootStress, colour: str) -> None:
     axes.plot(angle, found.least[:, k], "--", color=colour, label="minimum principal")
     axes.plot(angle, found.von_mises[:, k], ":", color=GREY, label="von Mises")
     axes.axhline(0.0, color=BLACK, linewidth=0.6)
+    strained = angle[found.von_mises[:, k] > 0.01 * found.von_mises[:, k].max()]
+    axes.set_xlim(strained.min(), strained.max())
     axes.set_xlabel("pinion angle of this tooth's pair [deg]")
     axes.set_ylabel("stress [MPa]")
     axes.legend(loc="upper left")
