@@ -9,7 +9,7 @@ from scipy.optimize import brentq, nnls
 from scipy.special import ellipe, ellipk
 
 from hypoid.load._active_set import Outcome, solve_contact
-from hypoid.load._love import parallelogram, rectangle, regular_grid
+from hypoid.load._love import mirrored_grid, parallelogram, rectangle, regular_grid
 
 MODULUS = 103e3 / 0.91  # E*, MPa: two bodies of 206 GPa and 0.3
 
@@ -131,3 +131,14 @@ def test_a_parallelogram_is_a_rectangle_when_square_and_a_sum_when_not() -> None
         r = np.hypot(*(place - q).transpose(2, 0, 1))
         assert parallelogram(q, first, second) == pytest.approx(area * (1.0 / r).mean(), rel=3e-3)
     assert parallelogram(at, second, first) == pytest.approx(parallelogram(at, first, second))
+
+
+def test_images_beyond_a_line() -> None:
+    """Of a cell with its middle on the line the image is the cell; elsewhere it is seen from the mirrored place."""
+    x, y = np.array([0.0, 1.0, 2.0]), np.array([0.0, 0.3, -0.2])
+    found = mirrored_grid(x, y, np.array([0.0, 2.0, 0.0]), 0.5, 0.25)  # the line x = 0
+    assert found[0, 0] == pytest.approx(rectangle(np.array(0.0), np.array(0.0), 0.5, 0.25))
+    assert found[1, 2] == pytest.approx(rectangle(np.array(3.0), np.array(0.5), 0.5, 0.25))
+    np.testing.assert_allclose(found, found.T)
+    far = mirrored_grid(x, y, np.array([1e3, 1.0, 0.0]), 0.5, 0.25)
+    assert far.max() < 1e-4

@@ -245,6 +245,13 @@ def test_bad_input_is_told_all_at_once(
         loaded_contact(relief_pair, "drive", [], *drive_teeth)
 
 
+def test_too_few_pairs_are_told(
+    relief_pair: GearPair, drive_teeth: tuple[ToothCompliance, ToothCompliance]
+) -> None:
+    found = loaded_contact(relief_pair, "drive", [11e4], *drive_teeth, positions=5, pairs=3)
+    assert any("two more pairs" in words for words in found.cases[0].faults)
+
+
 def test_an_interrupt_keeps_what_is_done(
     relief_pair: GearPair, drive_teeth: tuple[ToothCompliance, ToothCompliance]
 ) -> None:

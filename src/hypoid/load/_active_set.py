@@ -33,6 +33,7 @@ class Outcome(Enum):
     NOT_POSITIVE = (
         "The compliance is not positive: the tooth's mesh is too coarse for the cells' spacing."
     )
+    MORE_PAIRS = "The last of the pairs looked at carries load: look at two more pairs."
     NO_CONTACT = "No cell can carry the moment: the flanks do not meet here."
 
 

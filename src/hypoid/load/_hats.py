@@ -19,6 +19,7 @@ from ._love import parallelogram
 Array = np.ndarray[Any, Any]
 SPLIT = 4  # sub-cells of a face each way, for the half-space
 NEAR = 4.0  # sub-cells this many sizes apart see each other as points
+IMAGE = 1.0  # weight of what lies mirrored beyond the tip: a half-space is too stiff beside an edge
 CORNERS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
 MIDDLES = np.array([[0.0, -1.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]])
 
@@ -87,7 +88,10 @@ def hat_loads(nodes: Array, faces: Array, cone: PitchCone, outward: float) -> Ha
     """Hats on the faces (k, 8) of one flank; `nodes` (n, 3) mm, `outward` -1 where they are mirrored."""
     hats, number = _knots(nodes, faces[:, :4], cone)
     load, area = _loads(nodes, faces, number, hats.count, outward)
-    return HatLoads(hats, load / area, _half_space(nodes, faces, number, hats.count))
+    knot = np.zeros((hats.count, 3))
+    knot[number] = nodes[faces[:, :4]]
+    tip = knot.reshape(*hats.height.shape, 3)[:, -1]
+    return HatLoads(hats, load / area, _half_space(nodes, faces, number, hats.count, tip))
 
 
 def _knots(nodes: Array, corners: Array, cone: PitchCone) -> tuple[Hats, Array]:
@@ -130,10 +134,10 @@ def _loads(
     return load, area
 
 
-def _half_space(nodes: Array, faces: Array, number: Array, count: int) -> Array:
+def _half_space(nodes: Array, faces: Array, number: Array, count: int, tip: Array) -> Array:
     """Mean of the integral of 1/r under hat a, of hat b's unit force (hats, hats), 1/mm.
 
-    Distances are chords; sub-cells are flat parallelograms.
+    Distances are chords; sub-cells are flat parallelograms. Each has its image beyond the tip (points of that edge).
     """
     x = (np.arange(SPLIT) + 0.5) * 2.0 / SPLIT - 1.0
     at = np.stack([v.ravel() for v in np.meshgrid(x, x, indexing="ij")], axis=1)
@@ -142,24 +146,8 @@ def _half_space(nodes: Array, faces: Array, number: Array, count: int) -> Array:
         np.einsum("qk,fkd->fqd", s, nodes[faces]).reshape(-1, 3)
         for s in (value, by_x * 2.0 / SPLIT, by_y * 2.0 / SPLIT)
     )
-    area = np.linalg.norm(np.cross(first, second), axis=1)
-    apart = np.sqrt(np.maximum(((place[:, None] - place) ** 2).sum(axis=-1), 0.0))
-    size = np.maximum(np.linalg.norm(first, axis=1), np.linalg.norm(second, axis=1))
-    i, j = np.nonzero(apart < NEAR * size)
-    np.fill_diagonal(apart, 1.0)
-    seen = area / apart  # seen from i, the cell j
-    # the cell's own plane, with what lies off it laid down to the chord's length
-    along = first[j] / np.linalg.norm(first[j], axis=1)[:, None]
-    across = second[j] - (second[j] * along).sum(axis=1)[:, None] * along
-    across /= np.linalg.norm(across, axis=1)[:, None]
-
-    def flat(v: Array) -> Array:
-        return np.stack([(v * along).sum(axis=1), (v * across).sum(axis=1)], axis=1)
-
-    offset = flat(place[i] - place[j])
-    chord = np.where(i == j, 0.0, apart[i, j])
-    offset *= (chord / np.maximum(np.linalg.norm(offset, axis=1), 1e-300))[:, None]
-    seen[i, j] = parallelogram(offset, flat(first[j]), flat(second[j]))
+    seen = _seen(place, place, first, second)
+    seen += IMAGE * _seen(2.0 * _nearest(place, tip) - place, place, first, second)
     hat = sparse.coo_array(
         (
             np.tile(bilinear(at).ravel(), len(faces)),
@@ -170,9 +158,42 @@ def _half_space(nodes: Array, faces: Array, number: Array, count: int) -> Array:
         ),
         shape=(len(place), count),
     ).tocsr()
-    pressure = hat.multiply(area[:, None]).tocsr()
-    total = np.asarray(pressure.sum(axis=0)).ravel()
-    pressure = pressure.multiply(1.0 / total).tocsr()
+    area = np.linalg.norm(np.cross(first, second), axis=1)
     # u at i of cell j under unit pressure is seen[i, j]; hat b at unit force has pressure hat / total
+    total = hat.T @ area
+    pressure = hat.multiply(area[:, None]).multiply(1.0 / total).tocsr()
     mean = pressure.T @ (seen @ hat.multiply(1.0 / total).tocsr())
     return 0.5 * (mean + mean.T)
+
+
+def _seen(eye: Array, place: Array, first: Array, second: Array) -> Array:
+    """Integral of 1/r (n, n), mm, over parallelograms at `place`, seen from each `eye`."""
+    apart = np.sqrt(np.maximum(((eye[:, None] - place) ** 2).sum(axis=-1), 0.0))
+    size = np.maximum(np.linalg.norm(first, axis=1), np.linalg.norm(second, axis=1))
+    i, j = np.nonzero(apart < NEAR * size)
+    chord = apart[i, j]
+    apart[i, j] = 1.0
+    seen = np.linalg.norm(np.cross(first, second), axis=1) / apart
+    # the cell's own plane, with what lies off it laid down to the chord's length
+    along = first[j] / np.linalg.norm(first[j], axis=1)[:, None]
+    across = second[j] - (second[j] * along).sum(axis=1)[:, None] * along
+    across /= np.linalg.norm(across, axis=1)[:, None]
+
+    def flat(v: Array) -> Array:
+        return np.stack([(v * along).sum(axis=1), (v * across).sum(axis=1)], axis=1)
+
+    offset = flat(eye[i] - place[j])
+    offset *= (chord / np.maximum(np.linalg.norm(offset, axis=1), 1e-300))[:, None]
+    seen[i, j] = parallelogram(offset, flat(first[j]), flat(second[j]))
+    return seen
+
+
+def _nearest(place: Array, line: Array) -> Array:
+    """Nearest points (n, 3) on a polyline (k, 3) whose ends go on straight."""
+    start, way = line[:-1], np.diff(line, axis=0)
+    share = np.einsum("nkd,kd->nk", place[:, None] - start, way) / (way * way).sum(axis=1)
+    low, high = np.zeros(len(way)), np.ones(len(way))
+    low[0], high[-1] = -np.inf, np.inf
+    found = start + np.clip(share, low, high)[..., None] * way
+    best = ((found - place[:, None]) ** 2).sum(axis=-1).argmin(axis=1)
+    return found[np.arange(len(place)), best]

@@ -15,15 +15,14 @@ from platformdirs import user_cache_dir
 
 Array = np.ndarray[Any, Any]
 MODULES = ("_bricks", "_compliance", "_hats", "_love", "_material", "_superelement")
+SOURCE = b"".join(Path(__file__).with_name(f"{name}.py").read_bytes() for name in MODULES)
 
 
 def kept(
     contents: tuple[Any, ...], make: Callable[[], Mapping[str, Array]], folder: Path | None = None
 ) -> Mapping[str, Array]:
     """Arrays by name: read back if these contents were computed before, else made and kept."""
-    digest = hashlib.sha256()
-    for module in MODULES:
-        digest.update(Path(__file__).with_name(f"{module}.py").read_bytes())
+    digest = hashlib.sha256(SOURCE)
     for value in contents:
         digest.update(value.tobytes() if isinstance(value, np.ndarray) else repr(value).encode())
         digest.update(b";")

@@ -134,7 +134,9 @@ class LoadCase:
         angles = [np.degrees(p.pinion_angle) for p in self.positions if p.edge_contact]
         words = list(dict.fromkeys(p.outcome.value for p in self.positions if p.outcome.value))
         where = f"{self.torque * 1e-3:g} N m"
-        if angles:
+        if self.max_pressure == 0.0:
+            words.append("The contact has left the flanks: sharp edges bear all of the load.")
+        elif angles:
             words.append(
                 f"Edge contact at {len(angles)} of {len(self.positions)} positions: more relief or crowning, "
                 "or less torque; pressure at a sharp edge is not reported as the greatest."
@@ -243,6 +245,9 @@ def _position(
             loads.append(_pair_load(p, force, torque, teeth))
             total += force @ p.normal  # of the pinion on the wheel
             wheel_torque += float(p.wheel_lever @ force)
+    outcome = found.outcome
+    if outcome is Outcome.OK and any(abs(load.pair) == half for load in loads):
+        outcome = Outcome.MORE_PAIRS
     axis = np.array(to_wheel(mount, 0.0, (0.0, 0.0, 1.0), free=True), dtype=float)
     pinion_axial, wheel_axial = float(-total @ axis), float(total[2])
     size = float(total @ total)
@@ -258,7 +263,7 @@ def _position(
         wheel_axial,
         float(np.sqrt(max(size - wheel_axial**2, 0.0))),
         tuple(sorted(loads, key=lambda load: load.pair)),
-        found.outcome,
+        outcome,
         found.open_window,
     )
 

@@ -42,6 +42,19 @@ def regular_grid(columns: int, rows: int, width: float, height: float) -> Array:
     return table[np.abs(i[:, None] - i), np.abs(j[:, None] - j)]
 
 
+def mirrored_grid(x: Array, y: Array, line: Array, width: float, height: float) -> Array:
+    """Integrals of 1/r (mm) at cells' middles (n,) of all cells' images beyond a straight line, symmetric (n, n).
+
+    The line is c0 + c1 x + c2 y = 0, positive on the cells' side.
+    """
+    slope = line[1:] / np.hypot(*line[1:])
+    apart = 2.0 * (line[0] + line[1] * x + line[2] * y) / np.hypot(*line[1:])
+    there_x, there_y = x - apart * slope[0], y - apart * slope[1]
+    # seen from an eye's image the cell itself is what its image is to the eye
+    seen = rectangle(there_x[:, None] - x, there_y[:, None] - y, width, height)
+    return 0.5 * (seen + seen.T)
+
+
 def parallelogram(offset: Array, first: Array, second: Array) -> Array:
     """Integral of 1/r (mm) over flat parallelograms with these edges, seen from their middles plus `offset`.
 

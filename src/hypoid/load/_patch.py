@@ -206,6 +206,10 @@ class Patch:
     wheel_lever: Array
     pinion_place: tuple[Array, Array]  # (S, H), (n,) each
     wheel_place: tuple[Array, Array]
+    plane: Array  # (n, 2) mm, along and across
+    tips: tuple[
+        Array, Array
+    ]  # pinion's and wheel's tip, straight in the plane: c0 + c1 along + c2 across = 0
     edge: Array  # (n,) mm to the nearest tip, toe or heel of either member
 
     @property
@@ -226,7 +230,12 @@ def patch(met: Meeting, window: Window) -> Patch:
     levers, places = kept.levers, (kept.pinion_place, kept.wheel_place)
     flanks = (met.contact.pinion_flank, met.contact.wheel_flank)
     edge = np.full(int(on.sum()), np.inf)
+    plane = np.stack([a[on], b[on]], axis=1)
+    terms = np.column_stack([np.ones(len(edge)), plane])
+    tips: list[Array] = []
     for flank, (s, h) in zip(flanks, places, strict=True):
+        line, *_ = np.linalg.lstsq(terms, flank.tip.at(s) - h, rcond=None)
+        tips.append(line)
         for away in (flank.tip.at(s) - h, s - flank.toe, flank.heel - s):
             edge = np.minimum(edge, away)
     return Patch(
@@ -240,5 +249,7 @@ def patch(met: Meeting, window: Window) -> Patch:
         gap[on],
         *levers,
         *places,
+        plane,
+        (tips[0], tips[1]),
         edge,
     )

@@ -12,7 +12,8 @@ from scipy import sparse
 
 from ._active_set import ContactSolution, Outcome, solve_contact
 from ._compliance import ToothCompliance
-from ._love import regular_grid
+from ._hats import IMAGE
+from ._love import mirrored_grid, regular_grid
 from ._patch import COLUMNS, ROWS, Meeting, Patch, Window, patch
 
 Array = np.ndarray[Any, Any]
@@ -161,9 +162,12 @@ def compliance(patches: Sequence[Patch], teeth: Teeth) -> Array:
     at = 0
     for p in patches:
         on = p.on.ravel()
-        cells = regular_grid(COLUMNS, ROWS, *p.size)[np.ix_(on, on)]
+        cells = regular_grid(COLUMNS, ROWS, *p.size)[np.ix_(on, on)] / teeth.plane_modulus
+        for member, tip in zip((teeth.pinion, teeth.wheel), p.tips, strict=True):
+            image = mirrored_grid(*p.plane.T, tip, *p.size)
+            cells += IMAGE * image / member.made_of.plane_modulus
         block = slice(at, at + p.count)
-        total[block, block] += cells / (np.pi * teeth.plane_modulus * p.size[0] * p.size[1])
+        total[block, block] += cells / (np.pi * p.size[0] * p.size[1])
         at += p.count
     return 0.5 * (total + total.T)
 
