@@ -276,6 +276,7 @@ def _position(at: LoadedPosition) -> dict[str, Any]:
         "pair_force_N": [p.force for p in at.pairs],
         "pair_max_pressure_MPa": [p.max_pressure for p in at.pairs],
         "edge_contact": at.edge_contact,
+        "edges": sorted({p.edge for p in at.pairs if p.edge}),
         "edge_force_N": sum(p.edge_force for p in at.pairs),
         "transmission_error_urad": at.transmission_error * URAD,
         "unloaded_transmission_error_urad": at.unloaded * URAD,

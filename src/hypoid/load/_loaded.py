@@ -18,7 +18,7 @@ from hypoid.pair import Direction, GearPair
 
 from ._active_set import Outcome
 from ._compliance import ToothCompliance
-from ._patch import Patch, Window, meeting
+from ._patch import EDGES, Patch, Window, meeting
 from ._position import EDGE, PositionContact, Teeth, position_contact
 
 Array = np.ndarray[Any, Any]
@@ -37,6 +37,7 @@ class PairLoad:
     max_pressure: float  # MPa, more than 0.3 mm from tip, toe and heel of both members
     edge_pressure: float  # MPa, nearer: moves with the cells
     edge_force: float  # N, on these cells
+    edge: str  # the edge beside the greatest of that, "wheel heel", or none
     place: tuple[float, float]  # (S, H) of the greatest pressure on the pinion, mm
     distance: Array  # (n,) S of cells on the pinion, mm
     height: Array  # (n,) H
@@ -131,15 +132,18 @@ class LoadCase:
     @cached_property
     def faults(self) -> tuple[str, ...]:
         """What is wrong with these results, in words."""
-        angles = [np.degrees(p.pinion_angle) for p in self.positions if p.edge_contact]
+        at_edges = [p for p in self.positions if p.edge_contact]
+        names = sorted(
+            {p.edge for at in at_edges for p in at.pairs if p.edge_pressure > at.max_pressure}
+        )
         words = list(dict.fromkeys(p.outcome.value for p in self.positions if p.outcome.value))
         where = f"{self.torque * 1e-3:g} N m"
         if self.max_pressure == 0.0:
             words.append("The contact has left the flanks: sharp edges bear all of the load.")
-        elif angles:
+        elif at_edges:
             words.append(
-                f"Edge contact at {len(angles)} of {len(self.positions)} positions: more relief or crowning, "
-                "or less torque; pressure at a sharp edge is not reported as the greatest."
+                f"Edge contact ({', '.join(names)}) at {len(at_edges)} of {len(self.positions)} positions: more "
+                "relief or crowning, or less torque; pressure at a sharp edge is not reported as the greatest."
             )
         if any(p.open_window for p in self.positions):
             words.append(
@@ -271,7 +275,7 @@ def _position(
 def _pair_load(p: Patch, force: Array, torque: float, teeth: Teeth) -> PairLoad:
     pressure = force / p.area
     inner = p.edge > EDGE
-    peak = int(pressure.argmax())
+    peak, sharp = int(pressure.argmax()), int(np.where(inner, 0.0, pressure).argmax())
     return PairLoad(
         pair=p.meeting.pair,
         share=float(p.pinion_lever @ force) / torque,
@@ -279,6 +283,7 @@ def _pair_load(p: Patch, force: Array, torque: float, teeth: Teeth) -> PairLoad:
         max_pressure=float(pressure[inner].max(initial=0.0)),
         edge_pressure=float(pressure[~inner].max(initial=0.0)),
         edge_force=float(force[~inner].sum()),
+        edge=EDGES[p.edge_name[sharp]] if not inner[sharp] and force[sharp] > 0.0 else "",
         place=(float(p.pinion_place[0][peak]), float(p.pinion_place[1][peak])),
         distance=p.pinion_place[0],
         height=p.pinion_place[1],

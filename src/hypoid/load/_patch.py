@@ -15,6 +15,7 @@ import numpy as np
 from hypoid.contact import Mounting, UnloadedContact, angle_field, lead, to_pinion, to_wheel
 
 Array = np.ndarray[Any, Any]
+EDGES = tuple(f"{member} {end}" for member in ("pinion", "wheel") for end in ("tip", "toe", "heel"))
 COLUMNS, ROWS = 25, 11  # cells along the contact and across
 STENCIL, REACH = (
     9,
@@ -210,7 +211,8 @@ class Patch:
     tips: tuple[
         Array, Array
     ]  # pinion's and wheel's tip, straight in the plane: c0 + c1 along + c2 across = 0
-    edge: Array  # (n,) mm to the nearest tip, toe or heel of either member
+    edge: Array  # (n,) mm to the nearest of EDGES
+    edge_name: Array  # (n,) index into EDGES
 
     @property
     def count(self) -> int:
@@ -229,15 +231,14 @@ def patch(met: Meeting, window: Window) -> Patch:
     kept = Surface(met, surface.point[on], surface.normal[on], surface.pinion, surface.wheel)
     levers, places = kept.levers, (kept.pinion_place, kept.wheel_place)
     flanks = (met.contact.pinion_flank, met.contact.wheel_flank)
-    edge = np.full(int(on.sum()), np.inf)
     plane = np.stack([a[on], b[on]], axis=1)
-    terms = np.column_stack([np.ones(len(edge)), plane])
+    terms = np.column_stack([np.ones(len(plane)), plane])
+    edges: list[Array] = []
     tips: list[Array] = []
     for flank, (s, h) in zip(flanks, places, strict=True):
         line, *_ = np.linalg.lstsq(terms, flank.tip.at(s) - h, rcond=None)
         tips.append(line)
-        for away in (flank.tip.at(s) - h, s - flank.toe, flank.heel - s):
-            edge = np.minimum(edge, away)
+        edges += [flank.tip.at(s) - h, s - flank.toe, flank.heel - s]
     return Patch(
         met,
         window,
@@ -251,5 +252,6 @@ def patch(met: Meeting, window: Window) -> Patch:
         *places,
         plane,
         (tips[0], tips[1]),
-        edge,
+        np.min(edges, axis=0),
+        np.argmin(edges, axis=0),
     )

@@ -164,7 +164,7 @@ def compliance(patches: Sequence[Patch], teeth: Teeth) -> Array:
         on = p.on.ravel()
         cells = regular_grid(COLUMNS, ROWS, *p.size)[np.ix_(on, on)] / teeth.plane_modulus
         for member, tip in zip((teeth.pinion, teeth.wheel), p.tips, strict=True):
-            image = mirrored_grid(*p.plane.T, tip, *p.size)
+            image = mirrored_grid(p.plane[:, 0], p.plane[:, 1], tip, *p.size)
             cells += IMAGE * image / member.made_of.plane_modulus
         block = slice(at, at + p.count)
         total[block, block] += cells / (np.pi * p.size[0] * p.size[1])
