@@ -34,7 +34,9 @@ class PairLoad:
     pair: int  # stands this many pitches behind pair 0
     share: float  # of the torque
     force: float  # N, normal
-    max_pressure: float  # MPa, more than 0.3 mm from tip, toe and heel of both members
+    max_pressure: (
+        float  # MPa, more than 0.3 mm from tip, toe, heel and fillet limit of both members
+    )
     edge_pressure: float  # MPa, nearer: moves with the cells
     edge_force: float  # N, on these cells
     edge: str  # the edge beside the greatest of that, "wheel heel", or none
@@ -73,12 +75,12 @@ class LoadedPosition:
 
     @property
     def max_pressure(self) -> float:
-        """Greatest pressure, MPa, away from sharp edges."""
+        """Greatest pressure, MPa, away from edges."""
         return max((p.max_pressure for p in self.pairs), default=0.0)
 
     @property
     def edge_contact(self) -> bool:
-        """Whether the pressure is greatest at a tip, at toe or heel."""
+        """Whether the pressure is greatest at a tip, at toe or heel, or where a fillet begins."""
         edge = max((p.edge_pressure for p in self.pairs), default=0.0)
         return edge > self.max_pressure
 
@@ -103,7 +105,7 @@ class LoadCase:
 
     @property
     def max_pressure(self) -> float:
-        """Greatest pressure, MPa, away from sharp edges."""
+        """Greatest pressure, MPa, away from edges."""
         return max(p.max_pressure for p in self.positions)
 
     @property
@@ -139,11 +141,11 @@ class LoadCase:
         words = list(dict.fromkeys(p.outcome.value for p in self.positions if p.outcome.value))
         where = f"{self.torque * 1e-3:g} N m"
         if self.max_pressure == 0.0:
-            words.append("The contact has left the flanks: sharp edges bear all of the load.")
+            words.append("The contact has left the flanks: edges bear all of the load.")
         elif at_edges:
             words.append(
                 f"Edge contact ({', '.join(names)}) at {len(at_edges)} of {len(self.positions)} positions: more "
-                "relief or crowning, or less torque; pressure at a sharp edge is not reported as the greatest."
+                "relief or crowning, or less torque; pressure at an edge is not reported as the greatest."
             )
         if any(p.open_window for p in self.positions):
             words.append(

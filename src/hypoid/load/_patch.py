@@ -15,7 +15,8 @@ import numpy as np
 from hypoid.contact import Mounting, UnloadedContact, angle_field, lead, to_pinion, to_wheel
 
 Array = np.ndarray[Any, Any]
-EDGES = tuple(f"{member} {end}" for member in ("pinion", "wheel") for end in ("tip", "toe", "heel"))
+ENDS = ("tip", "toe", "heel", "fillet limit")
+EDGES = tuple(f"{member} {end}" for member in ("pinion", "wheel") for end in ENDS)
 COLUMNS, ROWS = 25, 11  # cells along the contact and across
 STENCIL, REACH = (
     9,
@@ -235,10 +236,12 @@ def patch(met: Meeting, window: Window) -> Patch:
     terms = np.column_stack([np.ones(len(plane)), plane])
     edges: list[Array] = []
     tips: list[Array] = []
-    for flank, (s, h) in zip(flanks, places, strict=True):
+    fields = (surface.pinion, surface.wheel)
+    for flank, field, (s, h) in zip(flanks, fields, places, strict=True):
         line, *_ = np.linalg.lstsq(terms, flank.tip.at(s) - h, rcond=None)
         tips.append(line)
-        edges += [flank.tip.at(s) - h, s - flank.toe, flank.heel - s]
+        low = np.asarray(field.lowest.bounds(s)[0])
+        edges += [flank.tip.at(s) - h, s - flank.toe, flank.heel - s, h - low]
     return Patch(
         met,
         window,

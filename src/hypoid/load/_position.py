@@ -23,7 +23,7 @@ GROW, MARGIN = (
     0.1,
 )  # of the contact's length: a side that is touched moves out, others stand off
 USED = 0.55  # of a window's length that the contact fills, at least
-EDGE = 0.3  # mm from tip, toe or heel: pressure there is a sharp edge's, and moves with the cells
+EDGE = 0.3  # mm from tip, toe, heel or fillet limit: pressure there is an edge's, and moves with the cells
 FILLED = 0.45  # share of a patch, nearest first, that is thought to touch
 
 

@@ -54,7 +54,7 @@ def loaded_contact_figure(loaded: LoadedContact) -> Figure:
     angle = np.degrees([p.pinion_angle for p in case.positions])
     envelope = [p.max_pressure for p in case.positions]
     axes[2, 1].plot(angle, envelope, color=BLACK, linewidth=2.2, label="envelope", zorder=0)
-    axes[2, 1].set_title("Greatest pressure by pair, 0.3 mm and more from sharp edges")
+    axes[2, 1].set_title("Greatest pressure by pair, 0.3 mm and more from edges")
     axes[2, 1].legend(loc="lower right")
     return drawn
 
