@@ -22,6 +22,8 @@ _COMMANDS = {
     "contact": "Unloaded contact of both directions: path, transmission error, contact ratio.",
     "inspect": "Nominal grids for a measuring machine, and what a measured member deviates by.",
     "correct": "New machine settings from a measured member, and the contact that they make.",
+    "load": "Loaded contact per torque: pressure, load sharing, transmission error, root stress.",
+    "stress": "Stress in both root fillets over the mesh cycle, per torque.",
     "export": "Teeth with their body for CAD, printing, viewing and analysis: STL, GLB, STEP, INP and more.",
     "report": "One HTML file with everything above, drawn.",
     "examples": "The design files that ship with the program.",

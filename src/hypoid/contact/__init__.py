@@ -4,6 +4,9 @@ from ._backlash import Backlash as Backlash
 from ._backlash import backlash as backlash
 from ._backlash import pair_backlash as pair_backlash
 from ._faults import faults as faults
+from ._field import AngleField as AngleField
+from ._field import angle_field as angle_field
+from ._field import lead as lead
 from ._interference import TipInterference as TipInterference
 from ._interference import tip_interference as tip_interference
 from ._misalignment import STEPS as STEPS
@@ -16,6 +19,8 @@ from ._misalignment import vh_check as vh_check
 from ._mounting import Misalignment as Misalignment
 from ._mounting import Mounting as Mounting
 from ._mounting import mounting as mounting
+from ._mounting import to_pinion as to_pinion
+from ._mounting import to_wheel as to_wheel
 from ._pattern import EaseOff as EaseOff
 from ._pattern import Pattern as Pattern
 from ._pattern import ease_off as ease_off

@@ -16,7 +16,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from hypoid.flank import Border, Chart, Flank, PitchCone, chart
-from hypoid.geometry import Batch, Vector, compiled_fused, horner
+from hypoid.geometry import Batch, Vector, compiled_fused, horner, namespace
 
 from ._mounting import Mounting, to_wheel
 
@@ -32,9 +32,10 @@ class AngleField:
 
     def angle(self, distance: Batch, height: Batch) -> Batch:
         """Angle about the member's axis, rad, at cone distance S and height H."""
+        xp = namespace(distance, height)
         value, *above = (horner(p.angle, *p.coordinates(distance, height)) for p in self.parts)
         for part, more in zip(self.parts, above, strict=False):
-            value = jnp.where(height < part.bounds(distance)[1], value, more)
+            value = xp.where(height < part.bounds(distance)[1], value, more)
         return value
 
     @property
@@ -109,13 +110,14 @@ def lead(mount: Mounting, wheel: AngleField, phi: Batch, point: Vector) -> Batch
     The two angles are small and never wrap; a lead beyond half a pitch means that the point has
     turned away to where the wheel's surface is met from behind.
     """
+    xp = namespace(phi, point)
     x, y, z = to_wheel(mount, phi, point)
-    rho = jnp.sqrt(x * x + y * y)
+    rho = xp.sqrt(x * x + y * y)
     distance, height = wheel.cone.cone_distance_height(z, rho)
-    value = mount.sense * (wheel.angle(distance, height) - jnp.arctan2(y, x))
+    value = mount.sense * (wheel.angle(distance, height) - xp.arctan2(y, x))
     excess = value - mount.wheel_zero - mount.ratio * phi
-    mine = wheel.holds(distance, height) & (jnp.abs(excess) < mount.half_pitch)
-    return jnp.where(mine, excess, -jnp.inf)
+    mine = wheel.holds(distance, height) & (xp.abs(excess) < mount.half_pitch)
+    return xp.where(mine, excess, -xp.inf)
 
 
 @compiled_fused

@@ -32,10 +32,10 @@ def pattern_figure(found: Results) -> Figure:
             continue
         distance = np.broadcast_to(marked.distance, marked.gap.shape)
         colour = COLOURS[result.direction]
-        _flank_frame(row[0], contact.pinion_flank)
+        flank_frame(row[0], contact.pinion_flank)
         _paint(row[0], distance, marked.height, marked, colour)
         row[0].plot(*contact.path, color=BLACK, linewidth=1.6, label="path of contact")
-        _flank_frame(row[1], contact.wheel_flank)
+        flank_frame(row[1], contact.wheel_flank)
         _paint(row[1], marked.wheel_distance, marked.wheel_height, marked, colour)
         row[1].plot(*contact.wheel_path, color=BLACK, linewidth=1.6)
         row[0].set_title(f"{result.direction}: {contact.pinion_flank.name}")
@@ -52,7 +52,7 @@ def _outline(axes: Axes, flank: Flank) -> tuple[Any, Any, Any]:
     return ends, tips, roots
 
 
-def _flank_frame(axes: Axes, flank: Flank) -> None:
+def flank_frame(axes: Axes, flank: Flank) -> None:
     """Outline of the tooth over (S, H), toe and heel, tip and root named."""
     ends, tips, roots = _outline(axes, flank)
     (toe, heel), tip, root = ends, tips.max(), roots.min()
@@ -119,7 +119,7 @@ def ease_off_figure(found: Results) -> Figure:
         ease, contact = result.ease_off, result.contact
         if ease is None or contact is None or not np.isfinite(ease.value).any():
             continue
-        _flank_frame(axes, contact.pinion_flank)
+        flank_frame(axes, contact.pinion_flank)
         um = np.ma.masked_invalid(ease.value * 1e3)
         x = np.broadcast_to(ease.distance, um.shape)
         filled = axes.contourf(x, ease.height, um, levels=14, cmap=MAP)

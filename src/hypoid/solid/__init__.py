@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from ._hex_mesh import HexMesh as HexMesh
     from ._hex_mesh import hex_mesh as hex_mesh
     from ._hex_quality import Quality as Quality
+    from ._hex_quality import shape_gradients as shape_gradients
     from ._probes import probes as probes
     from ._splines import SplineCurve as SplineCurve
     from ._splines import tooth_splines as tooth_splines
@@ -37,7 +38,7 @@ if TYPE_CHECKING:
 _LAZY = {
     "HexMesh": "_hex_mesh",
     "hex_mesh": "_hex_mesh",
-    "Quality": "_hex_quality",
+    **dict.fromkeys(("Quality", "shape_gradients"), "_hex_quality"),
     "surface_mesh": "_surface_mesh",
     **dict.fromkeys(("Arc", "Brep", "Flat", "Segment", "SplineSurface", "Turned"), "_brep"),
     "SplineCurve": "_splines",

@@ -132,7 +132,7 @@ def _one(
 ) -> Cell:
     """One tooth, in its member's hand."""
     tooth, cone, mirrored = member.tooth, member.concave.cone, member.concave.mirrored
-    share = np.linspace(0.0, 1.0, len(grid.distance))
+    share = (grid.distance - grid.distance[0]) / np.ptp(grid.distance)
     base = solid.base_height[0] + share * (solid.base_height[1] - solid.base_height[0])
     deep = float((grid.bottom_height - base[:, None]).mean())
     below = ring(solid, share, deep * depths(counts["below"])[1], rim)

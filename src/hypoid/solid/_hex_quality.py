@@ -47,10 +47,18 @@ class Quality:
 def _gradients(nodes: int) -> Array:
     """Gradients of the shape functions (points, 3, nodes) at 27 Gauss points and at the nodes."""
     gauss = np.array(list(product(np.sqrt(0.6) * np.array([-1.0, 0.0, 1.0]), repeat=3)))
+    return shape_gradients(np.concatenate([gauss, _places(nodes)]), nodes)
+
+
+def _places(nodes: int) -> Array:
+    """Places (nodes, 3) of an element's nodes in [-1, 1]."""
     places = CORNERS.astype(float)
-    if nodes == 20:
-        places = np.concatenate([places, places[EDGES].mean(axis=1)])
-    points = np.concatenate([gauss, places])
+    return places if nodes == 8 else np.concatenate([places, places[EDGES].mean(axis=1)])
+
+
+def shape_gradients(points: Array, nodes: int = 20) -> Array:
+    """Gradients (points, 3, nodes) of a brick's shape functions at places (points, 3) in [-1, 1]."""
+    places = _places(nodes)
     made = np.zeros((len(points), 3, nodes))
     for k, place in enumerate(places):
         factor = 1.0 + points * place  # (points, 3)

@@ -1,0 +1,260 @@
+"""Candidate cells of one tooth pair: a grid in the common tangent plane, and the gap of the exact surfaces there.
+
+All in the contact's frame G (left-hand wheel frame, see `hypoid.contact`), mm. Along every cell's ray, parallel to
+the common normal, the pinion is met by a secant; the gap is the wheel's lag behind its rigid place times its lever,
+as everywhere in the unloaded contact.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from hypoid.contact import Mounting, UnloadedContact, angle_field, lead, to_pinion, to_wheel
+
+Array = np.ndarray[Any, Any]
+ENDS = ("tip", "toe", "heel", "fillet limit")
+EDGES = tuple(f"{member} {end}" for member in ("pinion", "wheel") for end in ENDS)
+COLUMNS, ROWS = 25, 11  # cells along the contact and across
+STENCIL, REACH = (
+    9,
+    0.1,
+)  # points each way and whole depths, for the curvature where the pair touches first
+SECANTS, ARRIVED = 8, 1e-13  # most steps, and when they end, rad
+STEP = 1e-3  # mm, of differences
+STRAIGHT = 2e-5  # 1/mm: the least relative curvature that a first patch counts with
+
+
+@dataclass(frozen=True, eq=False)
+class Meeting:
+    """One tooth pair at one position: where it touches first, and how surfaces are read there."""
+
+    contact: UnloadedContact
+    pair: int  # k: this pair stands k pitches behind pair 0
+    phi: float  # pinion angle of this pair's own passage, rad
+    lead: float  # where the wheel stands: its rigid lead, rad
+    origin: Array  # (3,)
+    axes: Array  # (3, 3) rows: along the contact, across, pinion's outward normal
+    curvature: tuple[float, float]  # 1/mm, along and across, of the gap
+    gap: float  # mm, least
+    lever: float  # of the pinion there, mm
+
+    def surface(self, a: Array, b: Array) -> Surface:
+        """The pinion's points on rays at (a, b), mm, of the tangent plane."""
+        mount, phi = self.contact.mount, self.phi
+        pinion = angle_field(self.contact.pinion_flank)
+        wheel = angle_field(self.contact.wheel_flank)
+        foot = self.origin + a[:, None] * self.axes[0] + b[:, None] * self.axes[1]
+
+        def miss(height: Array) -> Array:
+            return _miss(mount, pinion, phi, foot + height[:, None] * self.axes[2])
+
+        height = np.zeros(len(a))
+        last, now = miss(height), miss(height + STEP)
+        before, height = height, height + STEP
+        for _ in range(SECANTS):
+            if not np.abs(now).max(initial=0.0) > ARRIVED:
+                break
+            slope = (now - last) / np.where(height == before, np.inf, height - before)
+            step = np.where(slope == 0.0, 0.0, -now / np.where(slope == 0.0, 1.0, slope))
+            step = np.clip(np.nan_to_num(step), -1.0, 1.0)
+            before, last = height, now
+            height = height + step
+            now = miss(height)
+        point = foot + height[:, None] * self.axes[2]
+        moves = STEP * np.concatenate([self.axes, -self.axes])
+        around = _miss(mount, pinion, phi, (point + moves[:, None]).reshape(-1, 3)).reshape(6, -1)
+        slopes = (around[:3] - around[3:]).T
+        normal = slopes @ self.axes
+        normal *= (np.sign(slopes[:, 2]) / np.linalg.norm(normal, axis=1))[:, None]
+        return Surface(self, point, normal, pinion, wheel)
+
+
+def _miss(mount: Mounting, pinion: Any, phi: float, point: Array) -> Array:
+    """Angle (n,), rad, by which points (n, 3) in G stand beside the pinion's flank."""
+    x, y, z = to_pinion(mount, np.full(len(point), phi), point).T
+    angle = pinion.angle(*pinion.cone.cone_distance_height(z, np.hypot(x, y)))
+    return (np.arctan2(y, x) - np.asarray(angle) + np.pi) % (2.0 * np.pi) - np.pi
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """Points of the pinion's flank as one pair sees them."""
+
+    meeting: Meeting
+    point: Array  # (n, 3)
+    normal: Array  # (n, 3) out of the pinion's tooth
+    pinion: Any
+    wheel: Any
+
+    @property
+    def pinion_place(self) -> tuple[Array, Array]:
+        """(S, H) on the pinion, mm."""
+        m = self.meeting
+        x, y, z = to_pinion(m.contact.mount, np.full(len(self.point), m.phi), self.point).T
+        return self.pinion.cone.cone_distance_height(z, np.hypot(x, y))
+
+    @property
+    def wheel_place(self) -> tuple[Array, Array]:
+        """(S, H) on the wheel, mm."""
+        x, y, z = self.point.T
+        return self.wheel.cone.cone_distance_height(z, np.hypot(x, y))
+
+    @property
+    def levers(self) -> tuple[Array, Array]:
+        """Levers (n,) of pinion and wheel, mm: normal motion of a flank a radian of its travel."""
+        mount, x, n = self.meeting.contact.mount, self.point, self.normal
+        zero = np.zeros(len(x))
+        own = to_pinion(mount, zero + self.meeting.phi, x)
+        ahead = to_pinion(mount, zero + self.meeting.phi, x + n) - own
+        pinion = -mount.sense * (own[:, 0] * ahead[:, 1] - own[:, 1] * ahead[:, 0])
+        return pinion, np.abs(x[:, 0] * n[:, 1] - x[:, 1] * n[:, 0])
+
+    def gaps(self) -> Array:
+        """Gap (n,), mm, along the normal with the wheel in its rigid place; infinite off either active flank."""
+        m = self.meeting
+        own = to_pinion(m.contact.mount, np.full(len(self.point), m.phi), self.point)
+        leads = np.asarray(lead(m.contact.mount, self.wheel, m.phi, tuple(own.T)))
+        held = np.asarray(self.pinion.holds(*self.pinion_place)) & np.isfinite(leads)
+        with np.errstate(invalid="ignore"):
+            gap = (m.lead - leads) * self.levers[1]
+        return np.where(held, gap, np.inf)
+
+
+def meeting(contact: UnloadedContact, position: int, pair: int) -> Meeting | None:
+    """Where pair k touches first at a position (index into `contact.phi`), None where its flanks do not face."""
+    n = contact.sampling.positions_per_pitch
+    own = position - pair * n
+    if not 0 <= own < len(contact.phi) or not np.isfinite(contact.curve[own]):
+        return None
+    phi = float(contact.phi[own])
+    node = int(contact.leads[own].argmax())
+    at, normal = contact.nodes.point[:, node], contact.nodes.normal[:, node]
+    if contact.interior[own]:
+        flank = contact.pinion_flank
+        found = flank.at_cutter(contact.points.s1[[own]], contact.points.theta1[[own]])
+        at, normal = (v[0] * flank.hand for v in found)
+    origin = np.array(to_wheel(contact.mount, phi, tuple(at)), dtype=float)
+    out = np.array(to_wheel(contact.mount, phi, tuple(normal), free=True), dtype=float)
+    rigid = contact.curve[position - n * np.arange(-_half(contact), _half(contact) + 1)].max()
+    first = np.cross(out, (0.0, 0.0, 1.0))
+    first /= np.linalg.norm(first)
+    axes = np.array([first, np.cross(out, first), out])
+    rough = Meeting(contact, pair, phi, float(rigid), origin, axes, (STRAIGHT, STRAIGHT), 0.0, 0.0)
+    levers = rough.surface(np.zeros(1), np.zeros(1)).levers
+    gap = (float(rigid) - float(contact.curve[own])) * float(levers[1][0])
+    turn, curvature = _curvature(rough, contact.pinion_flank)
+    c, s = np.cos(turn), np.sin(turn)
+    axes = np.array([c * axes[0] + s * axes[1], c * axes[1] - s * axes[0], out])
+    return Meeting(
+        contact, pair, phi, float(rigid), origin, axes, curvature, gap, float(levers[0][0])
+    )
+
+
+def _half(contact: UnloadedContact) -> int:
+    return contact.sampling.pairs // 2
+
+
+def _curvature(rough: Meeting, flank: Any) -> tuple[float, tuple[float, float]]:
+    """Direction of least curvature of the gap in the tangent plane, rad, and both curvatures, 1/mm."""
+    depth = float(flank.tip.at(flank.heel) - flank.root.at(flank.heel))
+    spread = np.linspace(-REACH * depth, REACH * depth, STENCIL)
+    a, b = (v.ravel() for v in np.meshgrid(spread, spread))
+    for wider in (1.0, 3.0):
+        x, y = wider * a, wider * b
+        gap = rough.surface(x, y).gaps()
+        there = np.isfinite(gap)
+        if there.sum() >= 2 * STENCIL:
+            terms = np.stack([np.ones_like(x), x, y, 0.5 * x * x, x * y, 0.5 * y * y], axis=1)
+            fit, *_ = np.linalg.lstsq(terms[there], gap[there], rcond=None)
+            values, vectors = np.linalg.eigh([[fit[3], fit[4]], [fit[4], fit[5]]])
+            low, high = (max(float(v), STRAIGHT) for v in values)
+            return float(np.arctan2(vectors[1, 0], vectors[0, 0])), (low, max(high, low))
+    return 0.0, (STRAIGHT, 1e-2)
+
+
+@dataclass(frozen=True)
+class Window:
+    """Rectangle of the tangent plane that cells cover: (low, high) along and across, mm."""
+
+    along: tuple[float, float]
+    across: tuple[float, float]
+
+    def scaled(self, by: float) -> Window:
+        """The same about its own middle, `by` times as long and wide."""
+
+        def one(ends: tuple[float, float]) -> tuple[float, float]:
+            middle, half = 0.5 * (ends[0] + ends[1]), 0.5 * by * (ends[1] - ends[0])
+            return middle - half, middle + half
+
+        return Window(one(self.along), one(self.across))
+
+
+@dataclass(frozen=True, eq=False)
+class Patch:
+    """Cells of one pair; those off either flank are left out of `on`, the rest count in its order."""
+
+    meeting: Meeting
+    window: Window
+    size: tuple[float, float]  # of a cell, mm
+    on: Array  # (COLUMNS, ROWS) bool
+    point: Array  # (n, 3)
+    normal: Array  # (n, 3)
+    area: Array  # (n,) mm2
+    gap: Array  # (n,) mm
+    pinion_lever: Array  # (n,) mm
+    wheel_lever: Array
+    pinion_place: tuple[Array, Array]  # (S, H), (n,) each
+    wheel_place: tuple[Array, Array]
+    plane: Array  # (n, 2) mm, along and across
+    tips: tuple[
+        Array, Array
+    ]  # pinion's and wheel's tip, straight in the plane: c0 + c1 along + c2 across = 0
+    edge: Array  # (n,) mm to the nearest of EDGES
+    edge_name: Array  # (n,) index into EDGES
+
+    @property
+    def count(self) -> int:
+        return len(self.gap)
+
+
+def patch(met: Meeting, window: Window) -> Patch:
+    """The cells of a window."""
+    size = (np.ptp(window.along) / COLUMNS, np.ptp(window.across) / ROWS)
+    a = window.along[0] + (np.arange(COLUMNS) + 0.5) * size[0]
+    b = window.across[0] + (np.arange(ROWS) + 0.5) * size[1]
+    a, b = (v.ravel() for v in np.meshgrid(a, b, indexing="ij"))
+    surface = met.surface(a, b)
+    gap = surface.gaps()
+    on = np.isfinite(gap) & (surface.normal @ met.axes[2] > 0.5)
+    kept = Surface(met, surface.point[on], surface.normal[on], surface.pinion, surface.wheel)
+    levers, places = kept.levers, (kept.pinion_place, kept.wheel_place)
+    flanks = (met.contact.pinion_flank, met.contact.wheel_flank)
+    plane = np.stack([a[on], b[on]], axis=1)
+    terms = np.column_stack([np.ones(len(plane)), plane])
+    edges: list[Array] = []
+    tips: list[Array] = []
+    fields = (surface.pinion, surface.wheel)
+    for flank, field, (s, h) in zip(flanks, fields, places, strict=True):
+        line, *_ = np.linalg.lstsq(terms, flank.tip.at(s) - h, rcond=None)
+        tips.append(line)
+        low = np.asarray(field.lowest.bounds(s)[0])
+        edges += [flank.tip.at(s) - h, s - flank.toe, flank.heel - s, h - low]
+    return Patch(
+        met,
+        window,
+        (float(size[0]), float(size[1])),
+        on.reshape(COLUMNS, ROWS),
+        kept.point,
+        kept.normal,
+        size[0] * size[1] / (kept.normal @ met.axes[2]),
+        gap[on],
+        *levers,
+        *places,
+        plane,
+        (tips[0], tips[1]),
+        np.min(edges, axis=0),
+        np.argmin(edges, axis=0),
+    )

@@ -1,0 +1,84 @@
+"""`hypoid load` and `hypoid stress`: names that scripts rely on, figures, and what is refused."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from hypoid.cli import main
+from hypoid.io import example_files
+
+RELIEF = str(next(f for f in example_files() if f.stem == "gonzalez-fuentes-2022-relief"))
+QUICK = ("--mesh", "coarse", "--positions", "5")
+
+
+@pytest.fixture
+def hypoid(capsys: pytest.CaptureFixture[str]) -> Any:
+    def run(*argv: str) -> tuple[int, str, str]:
+        status = main(argv)
+        return status, *capsys.readouterr()
+
+    return run
+
+
+@pytest.mark.slow
+def test_load_has_the_names_that_scripts_rely_on(hypoid: Any, tmp_path: Path) -> None:
+    drawn = tmp_path / "load.png"
+    words = ("--torque", "30 N m", "--torque", "10 N m", "--figure", str(drawn), "--json")
+    status, out, _ = hypoid("load", RELIEF, *words, *QUICK)
+    assert status == 0
+    result = json.loads(out)
+    assert result["complete"] is True
+    assert [case["torque_Nm"] for case in result["cases"]] == [10.0, 30.0]
+    for case in result["cases"]:
+        assert case["max_pressure_MPa"] > 0.0
+        assert case["transmission_error_peak_to_peak_urad"] > 0.0
+        assert set(case["max_root_stress_MPa"]) == {"pinion", "wheel"}
+        assert len(case["positions"]) == 5
+        for position in case["positions"]:
+            assert len(position["load_share"]) == position["pairs_in_contact"]
+            assert sum(position["load_share"]) == pytest.approx(1.0, abs=1e-9)
+            assert position["max_pressure_MPa"] <= case["max_pressure_MPa"]
+    assert any("206 GPa" in a["value"] for a in result["assumed"])
+    assert drawn.read_bytes().startswith(b"\x89PNG")
+    status, out, _ = hypoid("load", RELIEF, *words[:2], *QUICK)
+    assert "greatest pressure [MPa]" in out
+
+
+@pytest.mark.slow
+def test_stress_by_member_and_over_time(hypoid: Any, tmp_path: Path) -> None:
+    drawn = tmp_path / "stress.svg"
+    words = ("--torque", "30 N m", "--figure", str(drawn))
+    status, out, _ = hypoid("stress", RELIEF, *words, *QUICK, "--json")
+    assert status == 0
+    (case,) = json.loads(out)["cases"]
+    for name, side in (("pinion", "concave"), ("wheel", "convex")):
+        member = case[name]
+        assert member["side"] == side
+        assert member["max_principal_MPa"] == case["max_root_stress_MPa"][name]
+        assert max(member["principal_there_MPa"]) == pytest.approx(member["max_principal_MPa"])
+        assert len(member["pinion_angle_deg"]) == len(member["principal_there_MPa"])
+        assert member["most_compressed_MPa"] < 0.0
+    assert drawn.read_text(encoding="utf-8").startswith("<svg")
+    status, out, _ = hypoid("stress", RELIEF, *words[:2], *QUICK)
+    assert "max_von_mises_MPa" in out
+
+
+@pytest.mark.parametrize("command", ["load", "stress"])
+def test_all_that_is_wrong_is_told_at_once(hypoid: Any, command: str) -> None:
+    words = ("--torque", "-110 N m", "--torque", "5", "--poissons-ratio", "0.5", "--positions", "4")
+    status, out, err = hypoid(command, RELIEF, *words, "--figure", "nowhere/x.gif", "--json")
+    assert status == 2
+    paths = [problem["path"] for problem in json.loads(out)["problems"]]
+    assert paths == ["--torque", "--torque", "--positions", "--poissons-ratio", "--figure"]
+    assert "coast" in err
+    assert '"5 N m"' in err
+
+
+def test_no_torque(hypoid: Any) -> None:
+    status, _, err = hypoid("load", RELIEF)
+    assert status == 2
+    assert '--torque "110 N m"' in err

@@ -1,0 +1,145 @@
+"""Cells on a half-space against closed forms: Hertz, Love, a plain sum, and an independent solver."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.integrate import dblquad
+from scipy.optimize import brentq, nnls
+from scipy.special import ellipe, ellipk
+
+from hypoid.load._active_set import Outcome, solve_contact
+from hypoid.load._love import mirrored_grid, parallelogram, rectangle, regular_grid
+
+MODULUS = 103e3 / 0.91  # E*, MPa: two bodies of 206 GPa and 0.3
+
+
+def hertz(ratio: float, mean_radius: float, force: float) -> tuple[float, float, float, float]:
+    """Semi-axes a >= b (mm), peak pressure and approach of two bodies with R'/R'' = ratio [Johnson, sec. 4.2]."""
+    first, second = 1.0 / (mean_radius * np.sqrt(ratio)), np.sqrt(ratio) / mean_radius
+
+    def curvature_ratio(e2: float) -> float:
+        return ((1.0 - e2) ** -1.0 * ellipe(e2) - ellipk(e2)) / (ellipk(e2) - ellipe(e2))
+
+    e2 = 0.0 if ratio == 1.0 else brentq(lambda m: curvature_ratio(m) - ratio, 1e-9, 1.0 - 1e-12)
+    if e2 == 0.0:
+        a = b = (0.75 * force * mean_radius / MODULUS) ** (1.0 / 3.0)
+        peak = 1.5 * force / (np.pi * a * b)
+        return a, b, peak, a * a / mean_radius
+    # 1/R' = 2 A with A = (p0 / E*) (b / (a^2 e^2)) (K - E), p0 = 3 F / (2 pi a b)
+    a = (3.0 * force * (ellipk(e2) - ellipe(e2)) / (np.pi * MODULUS * e2 * first)) ** (1.0 / 3.0)
+    b = a * np.sqrt(1.0 - e2)
+    peak = 1.5 * force / (np.pi * a * b)
+    assert second > first
+    return a, b, peak, peak * b * ellipk(e2) / MODULUS
+
+
+def press(ratio: float, columns: int, rows: int, scale: float = 1.0) -> tuple[np.ndarray, ...]:
+    """A paraboloid on cells over 1.25 times its Hertz contact; lengths grow with the scale, loads with its square."""
+    radius, force = 20.0 * scale, 1000.0 * scale**2
+    a, b, peak, approach = hertz(ratio, radius, force)
+    width, height = 2.5 * a / columns, 2.5 * b / rows
+    x = (np.arange(columns) - (columns - 1) / 2.0) * width
+    y = (np.arange(rows) - (rows - 1) / 2.0) * height
+    x, y = (v.ravel() for v in np.meshgrid(x, y, indexing="ij"))
+    gap = x * x / (2.0 * radius * np.sqrt(ratio)) + y * y * np.sqrt(ratio) / (2.0 * radius)
+    area = width * height
+    compliance = regular_grid(columns, rows, width, height) / (np.pi * MODULUS * area)
+    found = solve_contact(compliance, gap, np.ones_like(gap), force)
+    assert found.outcome is Outcome.OK
+    return found, area, peak, approach, force, compliance, gap
+
+
+@pytest.mark.parametrize(
+    ("ratio", "columns", "rows"), [(1.0, 17, 17), (4.0, 27, 17), (300.0, 25, 11)]
+)
+def test_hertz_peak_and_approach(ratio: float, columns: int, rows: int) -> None:
+    """Sphere, crossed cylinders and a contact as long as that of gears, within half a percent."""
+    found, area, peak, approach, force, _, _ = press(ratio, columns, rows)
+    assert found.force.max() / area == pytest.approx(peak, rel=5e-3)
+    assert found.rotation == pytest.approx(approach, rel=5e-3)
+    assert found.force.sum() == pytest.approx(force, rel=1e-12)
+
+
+def test_hertz_converges() -> None:
+    """Four times the cells: the approach is at least twice as good."""
+    errors = []
+    for n in (9, 18, 36):
+        found, _, _, approach, *_ = press(1.0, n, n)
+        errors.append(abs(found.rotation / approach - 1.0))
+    assert errors[1] < 0.5 * errors[0]
+    assert errors[2] < 0.5 * errors[1]
+
+
+def test_lengths_by_k_and_forces_by_k_squared_keep_the_pressure() -> None:
+    one, area, *_ = press(4.0, 15, 9)
+    three, area_three, *_ = press(4.0, 15, 9, scale=3.0)
+    np.testing.assert_allclose(three.force / area_three, one.force / area, rtol=1e-9)
+    assert three.rotation == pytest.approx(3.0 * one.rotation, rel=1e-9)
+
+
+def test_the_same_as_nonnegative_least_squares() -> None:
+    """With f = L^-T v, the solution at the found rotation minimises |L^T f + L^-1 (g - l phi)|, f >= 0."""
+    found, *_, compliance, gap = press(4.0, 9, 7)
+    lower = np.linalg.cholesky(compliance)
+    force, _ = nnls(lower.T, np.linalg.solve(lower, found.rotation - gap))
+    np.testing.assert_allclose(found.force, force, atol=1e-9 * force.max())
+    assert found.gap.min() >= -1e-9
+    assert np.abs(found.gap * found.force).max() < 1e-12
+
+
+def test_levers_share_the_moment() -> None:
+    """Any levers: the moment is met to rounding and more moment never turns the member back."""
+    rng = np.random.default_rng(3)
+    *_, compliance, gap = press(4.0, 9, 7)
+    lever = rng.uniform(5.0, 9.0, len(gap))
+    last, start = 0.0, None
+    for moment in (1e-3, 1.0, 50.0, 1e3, 2e4):
+        found = solve_contact(compliance, gap, lever, moment, start)
+        cold = solve_contact(compliance, gap, lever, moment)
+        assert found.outcome is Outcome.OK
+        np.testing.assert_allclose(found.force, cold.force, rtol=1e-8, atol=1e-9 * cold.force.max())
+        assert lever @ found.force == pytest.approx(moment, rel=1e-9)
+        assert found.rotation > last
+        last, start = found.rotation, found.touching
+
+
+def test_says_so_when_nothing_can_carry() -> None:
+    found = solve_contact(np.eye(2), np.zeros(2), -np.ones(2), 1.0)
+    assert found.outcome is Outcome.NO_CONTACT
+    found = solve_contact(-np.eye(2), np.zeros(2), np.ones(2), 1.0)
+    assert found.outcome is Outcome.NOT_POSITIVE
+
+
+def test_love_against_quadrature() -> None:
+    for x, y in ((0.9, 0.4), (2.0, -1.3)):
+        found, _ = dblquad(
+            lambda v, u, x, y: 1.0 / np.hypot(u - x, v - y), -0.5, 0.5, -0.25, 0.25, args=(x, y)
+        )
+        assert rectangle(np.array(x), np.array(y), 1.0, 0.5) == pytest.approx(found, rel=1e-8)
+
+
+def test_a_parallelogram_is_a_rectangle_when_square_and_a_sum_when_not() -> None:
+    at = np.array([[0.0, 0.0], [0.3, 0.1], [2.0, -1.0]])
+    found = parallelogram(at, np.array([1.0, 0.0]), np.array([0.0, 0.5]))
+    np.testing.assert_allclose(found, rectangle(at[:, 0], at[:, 1], 1.0, 0.5), rtol=1e-12)
+    first, second = np.array([0.8, 0.3]), np.array([-0.2, 0.6])
+    s, t = np.meshgrid(*2 * [(np.arange(600) + 0.5) / 600 - 0.5])
+    area = abs(first[0] * second[1] - first[1] * second[0])
+    place = s[..., None] * first + t[..., None] * second
+    for q in (np.array([0.11, 0.23]), np.array([1.5, 0.7])):
+        r = np.hypot(*(place - q).transpose(2, 0, 1))
+        assert parallelogram(q, first, second) == pytest.approx(area * (1.0 / r).mean(), rel=3e-3)
+    assert parallelogram(at, second, first) == pytest.approx(parallelogram(at, first, second))
+
+
+def test_images_beyond_a_line() -> None:
+    """Of a cell with its middle on the line the image is the cell; elsewhere it is seen from the mirrored place."""
+    x, y = np.array([0.0, 1.0, 2.0]), np.array([0.0, 0.3, -0.2])
+    found = mirrored_grid(x, y, np.array([0.0, 2.0, 0.0]), 0.5, 0.25)  # the line x = 0
+    assert found[0, 0] == pytest.approx(rectangle(np.array(0.0), np.array(0.0), 0.5, 0.25))
+    far_off = rectangle(np.array(3.0), np.array(0.5), 0.5, 0.25)
+    assert found[1, 2] == pytest.approx(far_off, rel=2e-3)  # seen as a point
+    np.testing.assert_allclose(found, found.T)
+    far = mirrored_grid(x, y, np.array([1e3, 1.0, 0.0]), 0.5, 0.25)
+    assert far.max() < 1e-4

@@ -1,0 +1,264 @@
+"""Laws of the loaded contact, on the 2022 pair with relief and a coarse compliance."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from conftest import RELIEF, TABLE_1
+
+from hypoid.contact import to_wheel
+from hypoid.design import build
+from hypoid.geometry import DesignError
+from hypoid.load import (
+    LoadedContact,
+    Outcome,
+    ToothCompliance,
+    loaded_contact,
+    root_stress,
+    tooth_compliance,
+)
+from hypoid.load._patch import Window, meeting, patch
+from hypoid.load._position import compliance, position_contact
+from hypoid.pair import GearPair
+
+from .conftest import QUICK, TORQUES
+from .test_half_space import MODULUS, hertz
+
+
+def at(loaded: LoadedContact, torque: float, position: int = 0) -> Any:
+    """Contact of all pairs at one position after pinion angle zero."""
+    where = len(loaded.unloaded.phi) // 2 + position
+    met = [m for k in range(-4, 5) if (m := meeting(loaded.unloaded, where, k)) is not None]
+    return position_contact(met, loaded.teeth, torque)
+
+
+def test_moments_are_in_equilibrium(loaded: LoadedContact) -> None:
+    """The moment of all cells' forces about the pinion's axis, as vectors, is the torque, to 1e-9."""
+    for torque in TORQUES:
+        found = at(loaded, torque)
+        assert found.outcome is Outcome.OK
+        assert not found.open_window
+        mount = loaded.unloaded.mount
+        axis = np.array(to_wheel(mount, 0.0, (0.0, 0.0, 1.0), free=True), dtype=float)
+        origin = np.array(to_wheel(mount, 0.0, (0.0, 0.0, 0.0)), dtype=float)
+        moment = np.zeros(3)
+        for p, part in zip(found.patches, found.parts, strict=True):
+            force = -p.normal * found.solution.force[part][:, None]
+            moment += np.cross(p.point - origin, force).sum(axis=0)
+        # G is a mirror image of the pinion's frame, so the moment about its axis changes sign
+        assert abs(moment @ axis) == pytest.approx(torque, rel=1e-9)
+    for case in loaded.cases:
+        for position in case.positions:
+            assert sum(p.share for p in position.pairs) == pytest.approx(1.0, abs=1e-9)
+
+
+def test_compliance_of_all_cells_is_symmetric_and_positive(loaded: LoadedContact) -> None:
+    found = at(loaded, TORQUES[-1])
+    matrix = compliance(found.patches, loaded.teeth)
+    np.testing.assert_allclose(matrix, matrix.T, atol=1e-12 * np.abs(matrix).max())
+    assert np.linalg.eigvalsh(matrix)[0] > 0.0
+
+
+def test_no_cell_cuts_and_none_pulls(loaded: LoadedContact) -> None:
+    found = at(loaded, TORQUES[-1], 7)
+    solution = found.solution
+    assert solution.force.min() >= 0.0
+    gap = np.concatenate([p.gap for p in found.patches])
+    lever = np.concatenate([p.pinion_lever for p in found.patches])
+    under = (
+        gap + compliance(found.patches, loaded.teeth) @ solution.force - lever * solution.rotation
+    )
+    assert under.min() > -2e-9
+    assert np.abs(under[solution.touching]).max() < 1e-9
+
+
+def test_a_light_load_is_hertz_at_the_contact_point(loaded: LoadedContact) -> None:
+    """One pair, a small ellipse far from edges: the closed form with the surfaces' own curvatures."""
+    found = at(loaded, TORQUES[0])
+    (p,) = [
+        p
+        for p, part in zip(found.patches, found.parts, strict=True)
+        if found.solution.force[part].any()
+    ]
+    low, high = p.meeting.curvature
+    force = found.solution.force.sum()
+    radius = 1.0 / np.sqrt(low * high)
+    _, _, peak, _ = hertz(high / low, radius, force)
+    assert (found.solution.force[: p.count] / p.area).max() == pytest.approx(peak, rel=0.02)
+    assert loaded.teeth.plane_modulus == pytest.approx(MODULUS)
+
+
+def test_a_small_torque_tends_to_the_rigid_contact(loaded: LoadedContact) -> None:
+    """Transmission error under load less its mean goes to the unloaded one as the torque goes to zero."""
+    apart = []
+    for case in loaded.cases:
+        rigid = np.array([p.unloaded for p in case.positions])
+        apart.append(np.abs(case.transmission_error - rigid).max())
+    # a point contact: as the torque to the power 2/3
+    assert apart[0] < 1.2 * (TORQUES[0] / TORQUES[1]) ** (2.0 / 3.0) * apart[1] < apart[2]
+    assert apart[0] < 5e-6
+    light = loaded.cases[0].positions
+    assert all(len(p.pairs) <= 2 for p in light)
+    assert [p.unloaded for p in light] == pytest.approx(
+        loaded.unloaded.transmission_error[:: len(loaded.unloaded.cycle) // 8], abs=1e-12
+    )
+
+
+def test_more_torque_turns_further_and_presses_harder(loaded: LoadedContact) -> None:
+    for one, two in zip(loaded.cases[:-1], loaded.cases[1:], strict=True):
+        for a, b in zip(one.positions, two.positions, strict=True):
+            assert b.rotation > a.rotation
+            assert b.stiffness > a.stiffness
+            assert len(b.pairs) >= len(a.pairs)
+        assert two.max_pressure > one.max_pressure
+        assert two.contact_ratio > one.contact_ratio
+
+
+def test_stiffness_is_the_slope_of_torque(loaded: LoadedContact) -> None:
+    found = at(loaded, 11e4)
+    more = position_contact(
+        [p.meeting for p in found.patches], loaded.teeth, 11.02e4, found.windows
+    )
+    slope = 200.0 / (more.solution.rotation - found.solution.rotation)
+    assert slope == pytest.approx(found.solution.stiffness, rel=0.02)
+
+
+def test_positions_repeat_after_a_pitch(loaded: LoadedContact) -> None:
+    case = loaded.cases[-1]
+    first, last = case.positions[0], case.positions[-1]
+    assert last.pinion_angle - first.pinion_angle == pytest.approx(2.0 * loaded.unloaded.pitch)
+    assert [p.pair + 2 for p in first.pairs] == [p.pair for p in last.pairs]
+    again = at(loaded, case.torque, loaded.unloaded.sampling.positions_per_pitch)
+    assert again.solution.rotation == pytest.approx(last.rotation, rel=2e-3)
+
+
+def test_four_times_the_cells_change_little(
+    loaded: LoadedContact, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found = at(loaded, 11e4)
+    coarse = [
+        (found.solution.force[part] / p.area).max()
+        for p, part in zip(found.patches, found.parts, strict=True)
+    ]
+    for module in ("_patch", "_position"):
+        monkeypatch.setattr(f"hypoid.load.{module}.COLUMNS", 50)
+        monkeypatch.setattr(f"hypoid.load.{module}.ROWS", 22)
+    fine = position_contact([p.meeting for p in found.patches], loaded.teeth, 11e4, found.windows)
+    assert fine.solution.rotation == pytest.approx(found.solution.rotation, rel=3e-3)
+    peaks = [
+        (fine.solution.force[part] / p.area).max()
+        for p, part in zip(fine.patches, fine.parts, strict=True)
+    ]
+    assert max(peaks) == pytest.approx(max(coarse), rel=0.03)
+
+
+def test_gaps_are_those_of_the_exact_surfaces(loaded: LoadedContact) -> None:
+    """Turn the wheel by a cell's gap over its lever: the wheel's exact surface passes through the cell's point."""
+    unloaded = loaded.unloaded
+    met = meeting(unloaded, len(unloaded.phi) // 2, 1)
+    assert met is not None
+    cells = patch(met, Window((-2.0, 2.0), (-0.4, 0.4)))
+    flank = unloaded.wheel_flank
+    exact = flank.at_cone(*cells.wheel_place)
+    x, y, _ = (exact.position * flank.hand).T
+    mount = unloaded.mount
+    angle = np.arctan2(cells.point[:, 1], cells.point[:, 0]) - np.arctan2(y, x)
+    lead = -mount.sense * angle - mount.wheel_zero - mount.ratio * met.phi
+    gap = (met.lead - lead) * cells.wheel_lever
+    good = exact.ok
+    assert good.sum() > 200
+    np.testing.assert_allclose(cells.gap[good], gap[good], atol=2e-6)
+    own = unloaded.pinion_flank.at_cone(*cells.pinion_place)
+    back = np.array(to_wheel(mount, met.phi, tuple((own.position * unloaded.pinion_flank.hand).T)))
+    np.testing.assert_allclose(back.T[own.ok], cells.point[own.ok], atol=2e-6)
+    normal = np.array(
+        to_wheel(mount, met.phi, tuple((own.normal * unloaded.pinion_flank.hand).T), free=True)
+    ).T
+    np.testing.assert_allclose(normal[own.ok], cells.normal[own.ok], atol=1e-5)
+
+
+def test_twice_the_size_and_eight_times_the_torque_keep_the_pressure(
+    loaded: LoadedContact, compliance_folder: Path
+) -> None:
+    spec = replace(
+        TABLE_1,
+        offset=110.0,
+        wheel_mean_radius=260.0,
+        wheel_face_width=70.0,
+        cutter_radius=200.0,
+        tip_relief=replace(RELIEF, coefficient=0.002, height=3.0),
+    )
+    pair = build(spec)  # the pinion's face width is rounded to whole mm: 43 and 85, not 86
+    members = (
+        tooth_compliance(pair.pinion, "concave", elements=QUICK, cache=compliance_folder),
+        tooth_compliance(pair.wheel, "convex", elements=QUICK, cache=compliance_folder),
+    )
+    twice = loaded_contact(pair, "drive", [88e4], *members, positions=9)
+    one = loaded.cases[-1]
+    for a, b in zip(one.positions, twice.cases[0].positions, strict=True):
+        assert b.rotation == pytest.approx(a.rotation, rel=0.02)
+        for p, q in zip(a.pairs, b.pairs, strict=False):
+            assert q.share == pytest.approx(p.share, abs=0.01)
+    assert twice.cases[0].max_pressure == pytest.approx(one.max_pressure, rel=0.02)
+
+
+def test_a_right_hand_pair_is_the_mirror_image(
+    variant: Callable[[str], GearPair], loaded: LoadedContact, compliance_folder: Path
+) -> None:
+    pair = build(replace(TABLE_1, tip_relief=RELIEF, pinion_hand="right"))
+    members = (
+        tooth_compliance(pair.pinion, "concave", elements=QUICK, cache=compliance_folder),
+        tooth_compliance(pair.wheel, "convex", elements=QUICK, cache=compliance_folder),
+    )
+    mirrored = loaded_contact(pair, "drive", [11e4], *members, positions=5)
+    for a, b in zip(loaded.cases[-1].positions[::2], mirrored.cases[0].positions, strict=True):
+        assert b.rotation == pytest.approx(a.rotation, rel=1e-3)
+        assert [p.share for p in b.pairs] == pytest.approx([p.share for p in a.pairs], abs=3e-3)
+
+
+def test_root_stress_is_linear_in_the_hats_and_greatest_on_the_loaded_side(
+    loaded: LoadedContact,
+) -> None:
+    for member in ("pinion", "wheel"):
+        light, heavy = (root_stress(loaded, case, member) for case in loaded.cases[1:])
+        assert 3.0 < heavy.max_principal / light.max_principal < 11.0
+        assert heavy.side[heavy.critical] == heavy.loaded_side
+        assert heavy.most_compressed < -0.5 * heavy.max_principal
+        assert heavy.max_von_mises > 0.5 * heavy.max_principal
+        assert (np.diff(heavy.pinion_angle) >= 0.0).all()
+
+
+def test_bad_input_is_told_all_at_once(
+    relief_pair: GearPair, drive_teeth: tuple[ToothCompliance, ToothCompliance]
+) -> None:
+    with pytest.raises(DesignError) as told:
+        loaded_contact(relief_pair, "drive", [-11e4, 0.0], *drive_teeth, positions=20, pairs=4)
+    words = [(p.path, p.expected) for p in told.value.problems]
+    assert [w[0] for w in words] == ["torque", "torque", "positions", "pairs"]
+    assert "coast" in words[0][1]
+    with pytest.raises(DesignError):
+        loaded_contact(relief_pair, "drive", [], *drive_teeth)
+
+
+def test_too_few_pairs_are_told(
+    relief_pair: GearPair, drive_teeth: tuple[ToothCompliance, ToothCompliance]
+) -> None:
+    found = loaded_contact(relief_pair, "drive", [11e4], *drive_teeth, positions=5, pairs=3)
+    assert any("two more pairs" in words for words in found.cases[0].faults)
+
+
+def test_an_interrupt_keeps_what_is_done(
+    relief_pair: GearPair, drive_teeth: tuple[ToothCompliance, ToothCompliance]
+) -> None:
+    def stop(_what: str, done: int, _total: int) -> None:
+        if done == 2:
+            raise KeyboardInterrupt
+
+    found = loaded_contact(relief_pair, "drive", [1e4], *drive_teeth, positions=9, progress=stop)
+    assert not found.complete
+    assert len(found.cases[0].positions) == 2
