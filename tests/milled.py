@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 from independent import Array, Sweep, carried, sweep_of, work_roll
+from tri_ac import stick_sweep
 
 from hypoid.cutter import (
     CircularProfile,
@@ -21,6 +22,7 @@ from hypoid.cutter import (
     Flankrem,
     ParabolicProfile,
     Toprem,
+    TriAcHead,
 )
 from hypoid.flank import Border, Flank, PitchCone, Side, best_way, cut_flank
 from hypoid.machine import Cam, MachineSettings, Motions, Way
@@ -217,6 +219,8 @@ def mill_sweep(cutter: str, flank: Flank) -> MillSweep:
 def member_sweep(member: Member, flank: Flank) -> Sweep:
     """The sweep that cuts a flank of any member, whatever its head."""
     head = member.heads[flank.side]
+    if isinstance(head, TriAcHead):
+        return stick_sweep(head, flank)
     if not isinstance(head, FaceMillHead):
         return sweep_of(member, flank)
     blade = "outer" if flank.side == "concave" else "inner"

@@ -7,12 +7,13 @@ stand there: on mpmath, with the implicit equation of each reading of L_T solved
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cache
-from math import asin, cos, hypot, radians, sin, tan
+from functools import cache, cached_property
+from math import asin, cos, hypot, pi, radians, sin, tan
 from typing import Any
 
 import mpmath
 import numpy as np
+from independent import Sweep, carried
 from scipy.optimize import fsolve
 
 from hypoid.cutter import BladeToprem, TriAcBlade, TriAcHead
@@ -122,6 +123,73 @@ class PaperBlade:
         turn = mpf(self.blade.eccentric_angle)
         c, e = mpmath.cos(turn), mpmath.sin(turn)
         return [c * x + e * y + mpf(self.blade.radius), c * y - e * x, z]
+
+
+@dataclass(frozen=True)
+class StickSweep(Sweep):
+    """One stick blade of a Tri-Ac head swept through a left-hand blank, by the equations of the paper alone."""
+
+    head: Any = None
+    start: float = 0.0
+
+    @property
+    def theta_start(self) -> float:
+        return self.start
+
+    @cached_property
+    def paper(self) -> PaperBlade:
+        return PaperBlade(self.blade)  # pyright: ignore[reportArgumentType]
+
+    @cached_property
+    def measures(self) -> tuple[float, ...]:
+        """L1, L2, delta, tau, x_R, alpha_t."""
+        own = self.paper
+        values = (*own.lengths, own.delta, own.tau, own.x_r, own.alpha)
+        return tuple(float(v) for v in values)
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        first, second, *_, alpha = self.measures
+        blade: Any = self.blade
+        return -0.5 * self.head.tip_slot, first + second + (
+            blade.height + blade.shank_height
+        ) / cos(alpha)
+
+    def place(self, lengths: Array, theta: Array, phi: Array) -> tuple[Array, Array, Array]:
+        first, second, delta, tau, x_r, alpha = self.measures
+        blade: Any = self.blade
+        up, r_e, rho, h_f = self.paper.upper, blade.edge_radius, blade.curve_radius, blade.height
+        on_arc = np.clip(lengths, 0.0, first) / r_e
+        on_toprem = np.clip(lengths - first, 0.0, second)
+        run = np.maximum(lengths - first - second, 0.0)  # (2.a)-(2.d), one after the other
+        x = x_r + up * (
+            np.minimum(lengths, 0.0) + r_e * np.sin(on_arc) + on_toprem * sin(delta - tau)
+        )
+        z = -r_e * (1.0 - np.cos(on_arc)) - on_toprem * cos(delta - tau)
+        if rho:
+            x = x - up * rho * (np.cos(delta + run / rho) - cos(delta))
+            z = z - rho * (np.sin(delta + run / rho) - sin(delta))
+        else:
+            x, z = x + up * run * sin(alpha), z - run * cos(alpha)
+        hook, rake, turn = blade.hook_angle, blade.rake_angle, blade.eccentric_angle
+        y = -up * x * tan(rake) / cos(hook) - (z + h_f) * tan(hook)
+        at = (x + 1j * y) * np.exp(-1j * turn) + blade.radius
+        if up < 0:  # the inner blade of the group before
+            at = at * np.exp(1j * (self.head.following - 2.0 * pi / self.head.blade_groups))
+        px, py, pz = carried(self.settings, (at.real, at.imag, z), theta, phi)
+        along, radius = pz + float(self.cone.apex_beyond), np.hypot(px, py)
+        sine, cosine = float(self.cone.sine), float(self.cone.cosine)
+        work = self.settings.roll_to_blade_ratio * theta + self.settings.ratio_of_roll * phi
+        angle = np.angle((px + 1j * py) * np.exp(1j * work)) - work  # does not wrap
+        return along * cosine + radius * sine, radius * cosine - along * sine, angle
+
+
+def stick_sweep(head: TriAcHead, flank: Flank) -> StickSweep:
+    """The sweep that cuts a flank of a Tri-Ac member."""
+    blade: Any = head.outer if flank.side == "concave" else head.inner
+    return StickSweep(
+        flank.settings, blade, 0.0, 1, 0.0, 0.0, flank.cone, head=head, start=flank.theta_start
+    )
 
 
 def appendix_a(settings: MachineSettings, theta: Any, phi: Any) -> mpmath.matrix:
