@@ -30,11 +30,11 @@ from hypoid.pair import GearPair, Member
 Kind = Literal["length", "angle", "ratio", "coefficient"]
 MINUTE, HUNDREDTH = math.radians(1.0 / 60.0), 0.01
 ROLLS = {"ratio_of_roll": "ratio_gears", "helical_motion": "helical_gears"}
-# What each head calls its blades' angle.
-BLADE_ANGLE: dict[type, str] = {
-    FaceMillHead: "angle",
-    FaceHobHead: "pressure_angle",
-    TriAcHead: "blade_angle",
+# What can be ground or set of a head's blades, and what the head calls it.
+BLADE_FIELDS: Mapping[type, Mapping[str, str]] = {
+    FaceMillHead: {"blade_angle": "angle", "point_radius": "point_radius"},
+    FaceHobHead: {"blade_angle": "pressure_angle"},
+    TriAcHead: {"blade_angle": "blade_angle", "blade_radius": "radius"},
 }
 FREE_BY_DEFAULT = (
     "radial_distance", "eccentric_angle", "cradle_angle", "machine_root_angle", "sliding_base",
@@ -105,7 +105,9 @@ class Setup:
         name = "outer" if side == "concave" else "inner"
         head: Any = self.member.heads[side]
         blade = getattr(head, name)
-        changes = {n: getattr(blade, n) + s for n, s in _blade_fields(head, own).items()}
+        changes = {
+            (f := BLADE_FIELDS[type(head)][n]): getattr(blade, f) + s for n, s in own.items()
+        }
         new = replace(head, **{name: replace(blade, **changes)}).pieces(name)
         (x, y, _), (u, v, _) = head.pieces(name)["flank"].start, flank.pieces["flank"].start
         turn = math.atan2(v, u) - math.atan2(y, x)
@@ -257,23 +259,14 @@ def _machine_adjustments(table: Any, dials: Any, settings: MachineSettings) -> l
 
 def _blade_adjustments(member: Member, side: Side) -> list[Adjustment]:
     head: Any = member.heads[side]
-    angle = BLADE_ANGLE.get(type(head))
-    if angle is None:
-        return []
-    blade: Any = getattr(head, "outer" if side == "concave" else "inner")
-    reach, inf = math.radians(0.1), math.inf
-    found = [
-        Adjustment(f"{side}.blade_angle", "angle", getattr(blade, angle), -inf, inf, MINUTE, reach)
-    ]
-    if isinstance(head, FaceMillHead):
-        radius = blade.point_radius
-        found.append(Adjustment(f"{side}.point_radius", "length", radius, 0.0, inf, HUNDREDTH, 0.2))
-    return found
-
-
-def _blade_fields(head: Any, steps: Mapping[str, float]) -> dict[str, float]:
-    """Steps by the blade's own field names."""
-    return {BLADE_ANGLE[type(head)] if n == "blade_angle" else n: s for n, s in steps.items()}
+    names = BLADE_FIELDS.get(type(head), {})
+    blade: Any = getattr(head, "outer" if side == "concave" else "inner") if names else None
+    return [
+        Adjustment(f"{side}.{n}", "angle", getattr(blade, f), -math.inf, math.inf, MINUTE, math.radians(0.1))
+        if n == "blade_angle"
+        else Adjustment(f"{side}.{n}", "length", getattr(blade, f), 0.0, math.inf, HUNDREDTH, 0.2)
+        for n, f in names.items()
+    ]  # fmt: skip
 
 
 def _plain(name: str, value: float, angle: bool, reach: float | None = None) -> Adjustment:

@@ -54,6 +54,8 @@ def _blades(member: Any, found: Correction) -> None:
         side, key = name.split(".")
         if key == "blade_angle":
             _set(_table(member, side, "blade"), "angle", _quantity(value, "angle"))
+        elif key == "blade_radius":
+            _set(_table(member, side, "blade"), key, _quantity(value, "length"))
         elif "point_width" not in member.get("cutter", {}):
             _set(_table(member, side, "blade"), "point_diameter", _quantity(2.0 * value, "length"))
     if "point_width" in member.get("cutter", {}) and any(n.endswith("point_radius") for n in after):
