@@ -10,7 +10,9 @@ import pytest
 from inspection import bench_of, example
 
 from hypoid.cli import main
+from hypoid.cli._correct_options import weights_of
 from hypoid.design import build
+from hypoid.geometry import DesignError
 from hypoid.inspect import measured_points, random_errors
 from hypoid.io import example_files, inspection_text, read_layout, read_spec
 
@@ -213,6 +215,18 @@ def test_correct_tells_every_wrong_option(cut, capsys):
     other = ["--machine", "basic", "-o", "never.toml", "--no-contact"]
     assert main(["correct", FILE, "-m", cut, *other]) == 2
     assert "--machine gleason-463" in capsys.readouterr().err
+
+
+def test_weights_are_of_rows_columns_and_points():
+    grid = bench_of(NAME, "pinion").grid
+    found = weights_of(grid, ("A=0.5", "1=0", "C3=2", "C=3"))["convex"]
+    assert found.shape == (5, 9)
+    assert (found[0] == 0.0).all()
+    assert found[2].tolist() == [0.5, 1.0, 6.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0]
+    assert weights_of(grid, ()) == {}
+    with pytest.raises(DesignError) as caught:
+        weights_of(grid, ("Z9=1", "A=-1", "A=x", "A"))
+    assert [p.path for p in caught.value.problems] == ["--weight"] * 4
 
 
 def test_identify(cut, capsys):

@@ -11,7 +11,7 @@ from cyclopts import Parameter
 
 from hypoid.geometry import DesignError, Problem
 
-from ._correct_options import steps_before, targets_of, wish_of
+from ._correct_options import steps_before, targets_of, weights_of, wish_of
 from ._correct_tables import contact_table, correction_table, show_contact, show_corrections
 from ._inspect import Listed, MemberName, comparison_table
 from ._options import AsJson, DesignPath
@@ -37,6 +37,7 @@ def correct(
     increment: Listed = (),
     exact: Annotated[bool, Parameter(negative=())] = False,
     on_machine: Path | None = None,
+    weight: Listed = (),
     target: Listed = (),
     mate: Path | None = None,
     rows: int = 5,
@@ -78,6 +79,8 @@ def correct(
         Do not round to increments.
     on_machine
         Steps dialled before, as --save wrote them: the part was cut with these.
+    weight
+        "A=0.5", "1=0", "C3=2": how much a row, a column or a point counts, 1 without it.
     target
         "lengthwise_crowning=5 um", "profile_crowning=...", "bias=...": a form other than the nominal flank's.
     mate
@@ -119,7 +122,11 @@ def correct(
     if mate is not None:
         name = "wheel" if member == "pinion" else "pinion"
         other = compare(grids[name], read_inspection(mate, grids[name], layout), others=grids)
-    wish = replace(wish, target=targets_of(pair, found, other, target))
+    wish = replace(
+        wish,
+        target=targets_of(pair, found, other, target),
+        weights=weights_of(grids[member], weight),
+    )
     before = steps_before(on_machine)
     corrections = _corrections(pair, spec, member, machine, found, wish, before)
     if not corrections:

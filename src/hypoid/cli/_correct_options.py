@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import json
+import math
+import string
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from hypoid.geometry import DesignError, Problem
 
 from ._options import quantities
 
 if TYPE_CHECKING:
-    from hypoid.inspect import Comparison, Wish
+    from hypoid.inspect import Comparison, MeasuringGrid, Wish
+
+DIGITS, LETTERS = string.digits, string.ascii_uppercase
 
 
 def wish_of(
@@ -116,6 +122,32 @@ def targets_of(
             mate = other.sides[mate_side]
             made[side] = made[side] + mates_ease_off(pair, one.nodes, mate.nodes, mate.mean)
     return made
+
+
+def weights_of(grid: MeasuringGrid, weight: tuple[str, ...]) -> Any:
+    """Weights (rows, columns) of both flanks: of rows and columns by their names, and of points."""
+    from hypoid.flank import SIDES
+
+    nodes = grid.flanks["concave"]
+    names = [[nodes.name(r, c) for c in range(grid.columns)] for r in range(grid.rows)]
+    found, problems = np.ones((grid.rows, grid.columns)), list[Problem]()
+    for name, text in _pairs_of(weight, "--weight", problems):
+        mine = np.array(
+            [[name in (n, n.rstrip(DIGITS), n.lstrip(LETTERS)) for n in r] for r in names]
+        )
+        try:
+            value = float(text)
+        except ValueError:
+            value = math.nan
+        if not mine.any() or not 0.0 <= value < math.inf:
+            expected = f"a row, column or point of {names[0][0]} to {names[-1][-1]} and a number of 0 or more"
+            problems.append(
+                Problem("--weight", f"{name}={text}", expected, f'--weight "{names[0][0]}=0.5"')
+            )
+        found[mine] *= value
+    if problems:
+        raise DesignError(problems)
+    return dict.fromkeys(SIDES, found) if weight else {}
 
 
 def steps_before(path: Path | None) -> dict[str, dict[str, float]]:

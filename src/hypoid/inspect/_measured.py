@@ -55,7 +55,9 @@ def measured_points(
     sides: dict[Side, MeasuredSide] = {}
     for side, value in deviation.items():
         nodes = grid.flanks[side]
-        value = np.broadcast_to(np.atleast_2d(value), (len(teeth), nodes.lever.size))
+        value = np.broadcast_to(
+            np.reshape(value, (-1, nodes.lever.size)), (len(teeth), nodes.lever.size)
+        )
         position = nodes.position + value[..., None] * nodes.normal
         hand = float(nodes.flank.hand[1])
         places = [
