@@ -242,3 +242,23 @@ def test_wrong_names_are_all_told(bench):
     assert [p.given for p in caught.value.problems] == ["tilt", "roll"]
     with pytest.raises(DesignError, match="at least 6"):
         correction(response, {"concave": np.full(45, np.nan)})
+
+
+def test_an_earlier_measurement_still_counts(bench):
+    """The mean of both, their noise together: as one measurement that is their mean, with less noise."""
+    response = bench(*LIN).responses[0]
+    side = response.setup.sides[0]
+    random = np.random.default_rng(5)
+    one, other = (1e-3 * random.normal(0.0, 4.0, (5, 9)) for _ in range(2))
+    first = correction(response, {side: one}, Wish(noise=0.002))
+    known = Wish(
+        noise=0.002, on_machine=first.total, earlier=first.deviations_after, measurements=1
+    )
+    both = correction(response, {side: other}, known)
+    mean = 0.5 * (other + first.deviations_after[side])
+    alone = correction(
+        response, {side: mean}, Wish(noise=0.002 / np.sqrt(2.0), on_machine=first.total)
+    )
+    assert both.rank == alone.rank
+    for name, step in alone.exact.items():
+        assert both.exact[name] == pytest.approx(step, rel=1e-9, abs=1e-12)

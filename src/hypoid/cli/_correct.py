@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -78,7 +79,7 @@ def correct(
     exact
         Do not round to increments.
     on_machine
-        Steps dialled before, as --save wrote them: the part was cut with these.
+        Steps dialled before, as --save wrote them: the part was cut with these. What was measured then still counts.
     weight
         "A=0.5", "1=0", "C3=2": how much a row, a column or a point counts, 1 without it.
     target
@@ -127,7 +128,8 @@ def correct(
         target=targets_of(pair, found, other, target),
         weights=weights_of(grids[member], weight),
     )
-    before = steps_before(on_machine)
+    before, earlier, measurements = steps_before(on_machine, (rows, columns))
+    wish = replace(wish, earlier=earlier, measurements=measurements)
     corrections = _corrections(pair, spec, member, machine, found, wish, before)
     if not corrections:
         raise DesignError(
@@ -145,7 +147,7 @@ def correct(
     if figure is not None:
         _draw(figure, corrections, found)
     if save is not None:
-        _save(save, corrections)
+        _save(save, corrections, wish.measurements + 1)
     if json:
         write_json(
             {
@@ -185,13 +187,20 @@ def _corrections(
     return made
 
 
-def _save(path: Path, corrections: list[Correction]) -> None:
+def _save(path: Path, corrections: list[Correction], measurements: int) -> None:
     import json
 
     from hypoid.io import write_text
 
     total = {" ".join(c.setup.sides): dict(c.total) for c in corrections}
-    text = json.dumps({"units": "mm, rad, plain", "total": total}, indent=1)
+    after = {
+        side: [[v if math.isfinite(v) else None for v in row] for row in deviation.tolist()]
+        for c in corrections
+        for side, deviation in c.deviations_after.items()
+    }
+    known: dict[str, Any] = {"units": "mm, rad, plain", "total": total}
+    known |= {"measurements": measurements, "predicted_deviations_mm": after}
+    text = json.dumps(known, indent=1)
     say(f"The steps are in {write_text(path, text + chr(10))}, for --on-machine.")
 
 

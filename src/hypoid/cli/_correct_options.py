@@ -15,6 +15,7 @@ from hypoid.geometry import DesignError, Problem
 from ._options import quantities
 
 if TYPE_CHECKING:
+    from hypoid.flank import Side
     from hypoid.inspect import Comparison, MeasuringGrid, Wish
 
 DIGITS, LETTERS = string.digits, string.ascii_uppercase
@@ -150,14 +151,22 @@ def weights_of(grid: MeasuringGrid, weight: tuple[str, ...]) -> Any:
     return dict.fromkeys(SIDES, found) if weight else {}
 
 
-def steps_before(path: Path | None) -> dict[str, dict[str, float]]:
+def steps_before(
+    path: Path | None, shape: tuple[int, int]
+) -> tuple[dict[str, dict[str, float]], dict[Side, np.ndarray], int]:
+    """Steps by setup, deviations by side that earlier measurements predict, and how many those were."""
     if path is None:
-        return {}
+        return {}, {}, 0
     try:
         given = json.loads(path.read_text(encoding="utf-8"))
-        return {
-            name: {n: float(v) for n, v in steps.items()} for name, steps in given["total"].items()
+        steps = {
+            name: {n: float(v) for n, v in own.items()} for name, own in given["total"].items()
         }
+        known = given.get("predicted_deviations_mm", {})
+        earlier = {side: np.array(values, dtype=float) for side, values in known.items()}
+        if any(deviation.shape != shape for deviation in earlier.values()):
+            raise ValueError(f"of another grid than {shape[0]} x {shape[1]}")
+        return steps, earlier, int(given.get("measurements", 0))
     except (OSError, ValueError, KeyError, AttributeError, TypeError) as error:
         said = f"{path} ({error})"
         raise DesignError(

@@ -7,8 +7,9 @@ whose thickness is the index's affair; one for both flanks cut together, whose t
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -40,6 +41,9 @@ class Wish:
         default_factory=dict[str, tuple[float, float]]
     )
     on_machine: Mapping[str, float] = field(default_factory=dict[str, float])  # steps taken before
+    # Deviations (rows, columns) mm of the part that so many earlier measurements predict: they still count.
+    earlier: Mapping[Side, Array] = field(default_factory=dict[Side, Array])
+    measurements: int = 0
     weights: Mapping[Side, Array] = field(default_factory=dict[Side, Array])
     target: Mapping[Side, Array] = field(default_factory=dict[Side, Array])  # (n,) mm, 0 by default
 
@@ -125,6 +129,8 @@ def correction(
         For adjustments that there are not, and too few points to decide anything.
     """
     how, setup = wish or Wish(), response.setup
+    if how.earlier:
+        how = replace(how, noise=how.noise / math.sqrt(1.0 + how.measurements))
     names = chosen(setup, how.free)
     problem = _problem(response, deviations, how, thickness)
     jacobian = problem.root[:, None] * response.sensitivity(names)[problem.there]
@@ -186,6 +192,10 @@ def _problem(
         value = value - np.asarray(how.target.get(side, 0.0), float).ravel()
         if together and side == "convex" and thickness:
             value = value + nodes.lever * thickness / nodes.radius
+        if side in how.earlier:
+            before = np.asarray(how.earlier[side] - how.target.get(side, 0.0), float).ravel()
+            known, n = np.isfinite(before), how.measurements
+            value = np.where(known, (value + n * before) / (1.0 + n), value)
         values.append(np.where(nodes.there, value, np.nan))
         weights.append(np.broadcast_to(how.weights.get(side, 1.0), nodes.shape).ravel())
         levers.append(nodes.lever)

@@ -43,12 +43,14 @@ def simulated_loop(
     cut = true_deviation(response, errors)
     levels, largest = [rms(cut.values())], float(max(np.nanmax(np.abs(v)) for v in cut.values()))
     made: list[Correction] = []
+    own = wish  # and all that was measured before
     for _ in range(corrections):
         measured: dict[Side, Array] = {
             s: v + random.normal(0.0, wish.noise, v.shape) for s, v in cut.items()
         }
-        found = correction(response, measured, replace(wish, on_machine=steps))
+        found = correction(response, measured, replace(own, on_machine=steps))
         made.append(found)
+        own = replace(own, earlier=found.deviations_after, measurements=len(made))
         steps = dict(found.total)
         cut = true_deviation(response, added(errors, steps))
         levels.append(rms(cut.values()))
