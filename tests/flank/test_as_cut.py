@@ -14,7 +14,7 @@ from hypoid.flank import roll_range
 from hypoid.io import example_files
 from hypoid.pair import GearPair, Member
 
-FILES = {f.stem: f for f in example_files() if "as-printed" not in f.stem}
+FILES = {f.stem: f for f in example_files()}
 AGREEMENT = 1e-3  # mm, what is asked; along the normal
 
 
