@@ -52,37 +52,20 @@ def cut_flank(
     contact run nearly along the tooth (low spiral angles) the coordinates of the way ``cutter`` fold
     though the flank does not: then the flank is written over the cutter's turn instead.
     """
-
-    def cut(by: Way) -> Flank:
-        return _cut_by(
-            by, member, side, settings, pieces, cone, mirrored, toe, heel, tip, root, theta_start
-        )
-
-    flank = cut(way)
+    place = Surface(generator(settings), 1.0, 1.0, way)
+    asked = Flank(member, side, settings, pieces, place, cone, mirrored, 0.0, toe, heel, tip, root)
+    flank = _rooted(asked, way, theta_start)
     if way == "cutter" and not np.isfinite(flank.charts["flank"].error):
-        other = cut("cradle" if settings.plain_roll else "newton")
+        other = _rooted(asked, "cradle" if settings.plain_roll else "newton", theta_start)
         if np.isfinite(other.charts["flank"].error):
             return other
     return flank
 
 
-def _cut_by(
-    way: Way,
-    member: str,
-    side: Side,
-    settings: MachineSettings,
-    pieces: Mapping[str, EdgePiece],
-    cone: PitchCone,
-    mirrored: bool,
-    toe: float,
-    heel: float,
-    tip: Border,
-    root: Border,
-    theta_start: float | None,
-) -> Flank:
-    """The flank by that way and no other."""
-    gen, piece = generator(settings), pieces["flank"]
-    middle = 0.5 * (toe + heel)
+def _rooted(asked: Flank, way: Way, theta_start: float | None) -> Flank:
+    """The flank by that way and no other, on the root that is the tooth."""
+    gen, piece, cone = asked.surface.generator, asked.pieces["flank"], asked.cone
+    middle = 0.5 * (asked.toe + asked.heel)
     if theta_start is not None:
         s, turns = np.clip([0.0], float(piece.low), float(piece.high)), np.array([theta_start])
     else:
@@ -100,12 +83,10 @@ def _cut_by(
         k = int(np.argmin(score))
         if score[k] < best:
             # A left-hand member turns its concave flanks to falling angles, convex ones to rising.
-            wanted = -1.0 if side == "concave" else 1.0
+            wanted = -1.0 if asked.side == "concave" else 1.0
             best, start = float(score[k]), float(t[k])
             chosen = Surface(gen, branch, float(np.sign(tangential[k]) * wanted), way)
-    return Flank(
-        member, side, settings, pieces, chosen, cone, mirrored, start, toe, heel, tip, root
-    )
+    return replace(asked, surface=chosen, theta_start=start)
 
 
 def lowest_line(flank: Flank) -> Border:
