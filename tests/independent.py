@@ -92,14 +92,19 @@ def work_roll(settings: MachineSettings, phi: Any, m: ModuleType = np) -> Any:
 
 def edge_mp(piece: EdgePiece, s: Any) -> list[Any]:
     """Point of an edge piece: arc or line, and a parabola from `relief_from` on."""
-    k, beyond = mpmath.mpf(float(piece.curvature)), max(s - float(piece.relief_from), 0)
+    k, beyond = digits(piece.curvature), max(s - digits(piece.relief_from), 0)
     along = mpmath.sin(k * s) / k if k else s
     rise = (1 - mpmath.cos(k * s)) / k if k else mpmath.mpf(0)
-    rise += float(piece.relief) * beyond**2 + float(piece.parabola) * s**2
+    rise += digits(piece.relief) * beyond**2 + digits(piece.parabola) * s**2
     return [
-        float(p) + along * float(t) + rise * float(g)
+        digits(p) + along * digits(t) + rise * digits(g)
         for p, t, g in zip(piece.start, piece.tangent, piece.metal, strict=True)
     ]
+
+
+def digits(value: Any) -> mpmath.mpf:
+    """A number of the package, or one that has more digits already."""
+    return value if isinstance(value, mpmath.mpf) else mpmath.mpf(float(value))
 
 
 @dataclass(frozen=True)

@@ -100,21 +100,28 @@ class EaseOff:
     residual: float  # mm, rms of what the six terms leave
 
 
-def ease_off(contact: UnloadedContact) -> EaseOff:
-    """Ease-off of a pair: for each pinion point the least gap over the whole roll, uniform motion."""
+def vertices(contact: UnloadedContact) -> tuple[Array, Array]:
+    """Pinion angle where each node's lead is greatest, rad, and whether that lies within the passage.
+
+    The vertex of the parabola through the best position and its neighbours; the lead is stationary
+    there, so that an error of the vertex counts squared.
+    """
     leads, phi = contact.leads, contact.phi
     best, columns = leads.argmax(axis=0), np.arange(leads.shape[1])
     inner = (best > 0) & (best < len(phi) - 1)
     before, after = np.maximum(best - 1, 0), np.minimum(best + 1, len(phi) - 1)
     lower, top, upper = (leads[k, columns] for k in (before, best, after))
     inner &= np.isfinite(lower) & np.isfinite(upper)
-    # The vertex of the parabola through the best position and its neighbours; the lead there is
-    # exact, and stationary, so that an error of the vertex counts squared.
     lower, top, upper = (
         np.where(inner, v, -float(k == 1)) for k, v in enumerate((lower, top, upper))
     )
     shift = 0.5 * (lower - upper) / (lower - 2.0 * top + upper)
-    vertex = phi[best] + np.where(inner, shift, 0.0) * (phi[1] - phi[0])
+    return phi[best] + np.where(inner, shift, 0.0) * (phi[1] - phi[0]), inner
+
+
+def ease_off(contact: UnloadedContact) -> EaseOff:
+    """Ease-off of a pair: for each pinion point the least gap over the whole roll, uniform motion."""
+    vertex, inner = vertices(contact)
     point = tuple(contact.nodes.point)
     lead = np.asarray(lead_each(contact.mount, angle_field(contact.wheel_flank), vertex, point))
     value = np.where(inner, -lead * _levers(contact, vertex)[0], np.nan)

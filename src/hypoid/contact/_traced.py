@@ -1,33 +1,33 @@
 """Contact as a pure function of all that makes it, for JAX to differentiate.
 
-At a contact that was found, one Newton step whose Jacobian is held carries the derivatives of the
-contact point (the implicit function theorem); the lead follows. Values are those of
-``unloaded_contact``, so a function here costs no search.
+At a contact that was found, points are held to their cutter turns and cradle angles, where a change of
+anything is a rigid motion. That they must meet again, and mesh, moves them besides; both are linear,
+and how they are is known from the slopes at the contact (the implicit function theorem). So a function
+here costs one rigid motion a point and searches nothing.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import jax
 import jax.numpy as jnp
 import numpy as np
 
-from hypoid.flank import (
-    Flank,
-    FlankParameters,
-    axial_radial_angle,
-    flank_parameters,
-    position_and_normal,
-    traced_surface,
-)
-from hypoid.geometry import Batch, horner
+from hypoid.flank import Flank, FlankParameters, HeldPoints, flank_parameters, held_points
+from hypoid.geometry import Batch
 
 from ._mounting import Mounting, to_wheel
-from ._refine import pinion_seen, wheel_seen
+from ._pattern import ease_off, vertices
 from ._unloaded import UnloadedContact
+
+Array = np.ndarray[Any, Any]
+# What is seen of both members' points (7, n each) under a mounting: conditions (rows, n), then quantities.
+Rows = Callable[[Mounting, Batch, Batch], tuple[Batch, Batch]]
+SLACK = 1e-9  # mm that a point may lie beyond the blade's flank piece
 
 
 @jax.tree_util.register_dataclass
@@ -42,30 +42,27 @@ class ContactParameters:
 
 @dataclass(frozen=True)
 class TracedContact:
-    """One direction's contact with its parameters; every method is a pure function of them."""
+    """One direction's contact with its parameters; every method is a pure function of them.
+
+    Values and first derivatives are exact at the contact's own parameters, and linear about them.
+    """
 
     contact: UnloadedContact
     parameters: ContactParameters
 
     @property
-    def pinion_angle(self) -> np.ndarray:
+    def pinion_angle(self) -> Array:
         """(n,) pinion angles of the path, rad, at which this pair's flanks meet inside."""
         return self.contact.phi[self.contact.on_path]
 
     def transmission_error(self, parameters: ContactParameters) -> Batch:
         """(n,) wheel angle minus z1/z2 pinion angle along the path, rad, less its value at zero."""
-        lead = self._met(parameters)[1]
-        zero = int(np.argmin(np.abs(self.pinion_angle)))
-        return lead - lead[zero]
+        lead = self.contact.points.lead[self.contact.on_path] + self._path(parameters)[0]
+        return lead - lead[int(np.argmin(np.abs(self.pinion_angle)))]
 
     def path(self, parameters: ContactParameters) -> Batch:
         """(n, 2) path of contact on the pinion as (S, H), mm."""
-        at, _ = self._met(parameters)
-        pinion = self.contact.pinion_flank
-        surface = traced_surface(parameters.pinion, pinion)
-        point, _ = position_and_normal(surface, parameters.pinion.edge, at[:, 0], at[:, 1])
-        rho = jnp.hypot(point[0], point[1])
-        return jnp.stack(pinion.cone.cone_distance_height(point[2], rho), axis=1)
+        return jnp.stack(self.contact.path, axis=1) + self._path(parameters)[1:].T
 
     def ease_off(self, parameters: ContactParameters, rows: int = 5, columns: int = 9) -> Batch:
         """(rows, columns) ease-off over the pinion's active flank, mm, uniform motion.
@@ -73,161 +70,170 @@ class TracedContact:
         At fixed places (S, H), root to tip and toe to heel; NaN where the conjugate leaves the mate. The
         lead of each node is stationary in the pinion angle, which is therefore held.
         """
-        nodes = self.contact.nodes
+        value, there, moving = self._nodes(rows, columns)
+        lead, lever = self._moved(moving, parameters)
+        held = moving.quantities
+        change = -(held[0] * lever + lead * held[1])
+        made = jnp.full(value.size, jnp.nan).at[there].set(value[there] + change)
+        return made.reshape(rows, columns)
+
+    def _path(self, parameters: ContactParameters) -> Batch:
+        """(3, n): change of lead, S and H of the pinion along the path."""
+        return self._moved(self._meeting, parameters)
+
+    @cached_property
+    @jax.ensure_compile_time_eval()
+    def _meeting(self) -> _Moving:
+        contact, points = self.contact, self.contact.points
+        on = contact.on_path
+        cone, phi = contact.pinion_flank.cone, self.pinion_angle
+
+        def rows(mount: Mounting, pinion: Batch, wheel: Batch) -> tuple[Batch, Batch]:
+            z, rho, radial, axial, _, angle = _about_wheel(_carried(mount, phi, pinion))
+            z2, rho2, radial2, axial2, _, angle2 = _about_wheel(wheel)
+            conditions = (z - z2, rho - rho2, radial + radial2, axial + axial2, pinion[6], wheel[6])
+            place = cone.cone_distance_height(pinion[2], jnp.hypot(pinion[0], pinion[1]))
+            lead = mount.sense * (angle2 - angle) - mount.wheel_zero
+            return jnp.stack(conditions), jnp.stack((lead, *place))
+
+        pinion = points.s1[on], points.theta1[on]
+        return self._moving(rows, phi, pinion, (points.s2[on], points.theta2[on]))
+
+    @jax.ensure_compile_time_eval()
+    def _nodes(self, rows: int, columns: int) -> tuple[Array, Array, _Moving]:
+        """Ease-off of nodes, indices of those that count, and how their lead and lever move."""
+        contact, nodes = self.contact, self.contact.nodes
         i = np.linspace(0, nodes.height.shape[0] - 1, rows).round().astype(int)
         j = np.linspace(0, nodes.height.shape[1] - 1, columns).round().astype(int)
         index = (i[:, None] * nodes.height.shape[1] + j).ravel()
-        phi, found = self._vertices(index)
-        place = np.stack(
-            [
-                np.broadcast_to(nodes.distance[j], (rows, columns)).ravel(),
-                nodes.height[i][:, j].ravel(),
-            ]
+        value = ease_off(contact).value.ravel()[index]
+        phi = vertices(contact)[0][index]
+        piece = contact.pinion_flank.pieces["flank"]
+        there = np.isfinite(value) & (nodes.s[index] <= float(piece.high) + SLACK)
+        # the wheel's points that stand at the same z and rho
+        x, y, z = (
+            np.asarray(c) for c in to_wheel(contact.mount, phi, tuple(nodes.point[:, index]))
+        )  # pyright: ignore
+        flank = contact.wheel_flank
+        s, turn, _ = flank.parameters(*flank.cone.cone_distance_height(z, np.hypot(x, y)))
+        there = np.flatnonzero(there & np.isfinite(s))
+        phi, index, s, turn = phi[there], index[there], s[there], turn[there]
+        cone = contact.pinion_flank.cone
+        own = np.stack(
+            cone.axial_radial(
+                nodes.distance[index % len(nodes.distance)], nodes.height.ravel()[index]
+            )
         )
-        start = np.stack([nodes.s[index], nodes.theta[index]], axis=1)
-        lead, lever = self._lead_at(parameters, place.T, start, phi)
-        return jnp.where(found, -lead * lever, jnp.nan).reshape(rows, columns)
 
-    def _mount(self, parameters: ContactParameters) -> Mounting:
-        """The contact's mounting with the parameters' errors on top; both pitch points meet at zero."""
+        def seen(mount: Mounting, pinion: Batch, wheel: Batch) -> tuple[Batch, Batch]:
+            z, rho, _, _, lever, angle = _about_wheel(_carried(mount, phi, pinion))
+            z2, rho2, *_, angle2 = _about_wheel(wheel)
+            stay = pinion[2] - own[0], jnp.hypot(pinion[0], pinion[1]) - own[1]
+            conditions = (*stay, z2 - z, rho2 - rho, pinion[6], wheel[6])
+            lead = mount.sense * (angle2 - angle) - mount.wheel_zero - mount.ratio * phi
+            return jnp.stack(conditions), jnp.stack((lead, jnp.abs(lever)))
+
+        return (
+            value,
+            there,
+            self._moving(seen, phi, (nodes.s[index], nodes.theta[index]), (s, turn)),
+        )
+
+    def _moving(
+        self, rows: Rows, phi: Array, pinion: tuple[Array, Array], wheel: tuple[Array, Array]
+    ) -> _Moving:
+        """Points of both flanks at (s, turn), their pitch points behind them, and what follows what."""
+        contact, cones = self.contact, self.contact.pair.blank.cones
+
+        def held(flank: Flank, at: tuple[Array, Array], distance: float) -> HeldPoints:
+            pitch = flank.parameters([distance], [0.0])[:2]
+            return held_points(flank, *(np.append(a, p) for a, p in zip(at, pitch, strict=True)))
+
+        first = held(contact.pinion_flank, pinion, cones.pinion_mean_cone_distance)
+        second = held(contact.wheel_flank, wheel, cones.wheel_mean_cone_distance)
+        at = jnp.asarray(first.own[:, :-1]), jnp.asarray(second.own[:, :-1])
+
+        def seen(*both: Batch) -> tuple[Batch, Batch]:
+            return rows(contact.mount, *both)
+
+        still = jnp.zeros_like(at[0])
+        ways = [(jnp.asarray(way), still) for way in first.slopes[:, :, :-1]]
+        ways += [(still, jnp.asarray(way)) for way in second.slopes[:, :, :-1]]
+        slopes = [jax.jvp(seen, at, way)[1] for way in ways]
+        # (n, rows, 6) by the points' own parameters
+        conditions, quantities = (
+            np.stack([np.asarray(s[k]) for s in slopes], axis=-1).transpose(1, 0, 2) for k in (0, 1)
+        )
+        follow = np.linalg.solve(conditions.transpose(0, 2, 1), quantities.transpose(0, 2, 1))
+        own = (np.asarray(v) for v in seen(*at))
+        return _Moving(rows, phi, first, second, *own, follow.transpose(0, 2, 1))
+
+    def _moved(self, moving: _Moving, parameters: ContactParameters) -> Batch:
+        """(rows, n): how quantities change under parameters, with all that must stay met."""
+        first = moving.pinion.seen(parameters.pinion)
+        second = moving.wheel.seen(parameters.wheel)
+        turns = _turn(moving.pinion.own, first), _turn(moving.wheel.own, second)
+        mount = self._mount(parameters.misalignment, *turns)
+        conditions, quantities = moving.rows(mount, first[:, :-1], second[:, :-1])
+        left, change = conditions - moving.conditions, quantities - moving.quantities
+        return change - jnp.einsum("nqc,cn->qn", moving.follow, left)
+
+    def _mount(self, misalignment: Batch, pinion_turn: Batch, wheel_turn: Batch) -> Mounting:
+        """The contact's mounting with errors on top; pitch points that turned (rad) meet at zero again."""
         contact, own = self.contact, self.contact.misalignment
-        cones, sense = contact.pair.blank.cones, contact.mount.sense
-        pinion_angle = _mean_angle(
-            contact.pinion_flank, parameters.pinion, cones.pinion_mean_cone_distance
-        )
-        wheel_angle = _mean_angle(
-            contact.wheel_flank, parameters.wheel, cones.wheel_mean_cone_distance
-        )
-        offset, pinion, wheel, angle = (parameters.misalignment[k] for k in range(4))
-        sigma = contact.pair.blank.cones.shaft_angle + own.shaft_angle + angle
+        mount, cones = contact.mount, contact.pair.blank.cones
+        offset, out, back, angle = (misalignment[k] for k in range(4))
+        sigma = cones.shaft_angle + own.shaft_angle + angle
         c, s = jnp.cos(sigma), jnp.sin(sigma)
-        out, zero = own.pinion_axial + pinion, 0.0 * c
+        out, zero = own.pinion_axial + out, 0.0 * c
         return replace(
-            contact.mount,
+            mount,
             axes=((-c, zero, s), (zero, 1.0 + zero, zero), (s, zero, c)),
             shift=(
                 out * s,
-                -(contact.pair.blank.cones.offset + own.offset + offset),
-                out * c - own.wheel_axial - wheel,
+                -(cones.offset + own.offset + offset),
+                out * c - own.wheel_axial - back,
             ),
-            pinion_zero=cones.pinion_azimuth - pinion_angle,
-            wheel_zero=sense * (cones.wheel_azimuth + wheel_angle),
+            pinion_zero=mount.pinion_zero - pinion_turn,
+            wheel_zero=mount.wheel_zero + mount.sense * wheel_turn,
         )
-
-    def _met(self, parameters: ContactParameters) -> tuple[Batch, Batch]:
-        """(n, 4) edge parameters and turns of both flanks where they meet, and the lead (n,)."""
-        contact, points = self.contact, self.contact.points
-        on = contact.on_path
-        start = np.stack([points.s1, points.theta1, points.s2, points.theta2], axis=1)[on]
-        mount = self._mount(parameters)
-        first = traced_surface(parameters.pinion, contact.pinion_flank)
-        second = traced_surface(parameters.wheel, contact.wheel_flank)
-
-        def seen(x: Batch, phi: Batch) -> tuple[Any, Any]:
-            p = pinion_seen(mount, first, parameters.pinion.edge, phi, x[0], x[1])
-            return p, wheel_seen(second, parameters.wheel.edge, x[2], x[3])
-
-        def conditions(x: Batch, phi: Batch) -> Batch:
-            p, w = seen(x, phi)
-            return jnp.stack([p[0] - w[0], p[1] - w[1], p[2] + w[2], p[3] + w[3]])
-
-        def one(x: Batch, phi: Batch) -> tuple[Batch, Batch]:
-            x = implicit(lambda y: conditions(y, phi), x)
-            p, w = seen(x, phi)
-            return x, mount.sense * (w[5] - p[5]) - mount.wheel_zero - mount.ratio * phi
-
-        return jax.vmap(one)(jnp.asarray(start), jnp.asarray(self.pinion_angle))
-
-    def _lead_at(
-        self, parameters: ContactParameters, place: Any, start: Any, phi: Any
-    ) -> tuple[Batch, Batch]:
-        """Lead that pinion places (n, 2) ask for at pinion angles (n,), and the wheel's levers (n,)."""
-        contact, mount = self.contact, self._mount(parameters)
-        pinion, wheel = contact.pinion_flank, contact.wheel_flank
-        first = traced_surface(parameters.pinion, pinion)
-        second = traced_surface(parameters.wheel, wheel)
-        chart = wheel.charts["flank"]
-
-        def on_pinion(x: Batch, at: Batch) -> Batch:
-            point, _ = position_and_normal(first, parameters.pinion.edge, x[0], x[1])
-            rho = jnp.hypot(point[0], point[1])
-            return jnp.stack(pinion.cone.cone_distance_height(point[2], rho)) - at
-
-        def one(at: Batch, x: Batch, phi: Batch, y: Batch) -> tuple[Batch, Batch]:
-            x = implicit(lambda v: on_pinion(v, at), x, steps=2)
-            p = pinion_seen(mount, first, parameters.pinion.edge, phi, x[0], x[1])
-
-            def on_wheel(v: Batch) -> Batch:
-                w = wheel_seen(second, parameters.wheel.edge, v[0], v[1])
-                return jnp.stack([w[0] - p[0], w[1] - p[1]])
-
-            y = implicit(on_wheel, y, steps=2)  # from the chart
-            w = wheel_seen(second, parameters.wheel.edge, y[0], y[1])
-            lead = mount.sense * (w[5] - p[5]) - mount.wheel_zero - mount.ratio * phi
-            return lead, jnp.abs(p[1] * p[4])
-
-        # where the wheel's own search begins: read from its chart at the parameters of the contact
-        nodes = contact.nodes
-        held = tuple(jnp.asarray(v) for v in self._held(nodes, place))
-        x, y, z = to_wheel(contact.mount, jnp.asarray(phi), held)  # pyright: ignore[reportArgumentType]
-        distance, height = wheel.cone.cone_distance_height(z, jnp.hypot(x, y))
-        u, v = (jnp.clip(c, -1.0, 1.0) for c in chart.coordinates(distance, height))
-        begin = jnp.stack([horner(chart.s, u, v), horner(chart.theta, u, v)], axis=1)
-        return jax.vmap(one)(jnp.asarray(place), jnp.asarray(start), jnp.asarray(phi), begin)
-
-    def _held(self, nodes: Any, place: Any) -> np.ndarray:
-        """Pinion points at places, as the contact has them (left hand), mm (3, n)."""
-        pinion = self.contact.pinion_flank
-        points = pinion.at_cone(place[:, 0], place[:, 1])
-        return (points.position * pinion.hand).T
-
-    def _vertices(self, index: Any) -> tuple[np.ndarray, np.ndarray]:
-        """Pinion angles where nodes' leads are greatest, and whether they are within the passage."""
-        leads, phi = self.contact.leads[:, index], self.contact.phi
-        best, columns = leads.argmax(axis=0), np.arange(leads.shape[1])
-        inside = (best > 0) & (best < len(phi) - 1)
-        k = np.clip(best, 1, len(phi) - 2)
-        lower, top, upper = (leads[k + d, columns] for d in (-1, 0, 1))
-        inside &= np.isfinite(lower) & np.isfinite(upper)
-        lower, top, upper = (
-            np.where(inside, v, d) for v, d in ((lower, 0.0), (top, 1.0), (upper, 0.0))
-        )
-        shift = 0.5 * (lower - upper) / (lower - 2.0 * top + upper)
-        return phi[k] + shift * (phi[1] - phi[0]), inside
 
 
 def traced_contact(contact: UnloadedContact) -> TracedContact:
     """A contact that was found, as functions of its parameters."""
-    parameters = ContactParameters(
-        flank_parameters(contact.pinion_flank),
-        flank_parameters(contact.wheel_flank),
-        jnp.zeros(4),
-    )
-    return TracedContact(contact, parameters)
+    flanks = contact.pinion_flank, contact.wheel_flank
+    return TracedContact(contact, ContactParameters(*map(flank_parameters, flanks), jnp.zeros(4)))  # pyright: ignore
 
 
-def _mean_angle(flank: Flank, parameters: FlankParameters, distance: float) -> Batch:
-    """Angle of a flank's mean point about its axis, left hand, rad: what a mounting counts from."""
-    surface = traced_surface(parameters, flank)
-    wanted = jnp.array([distance, 0.0])
+@dataclass(frozen=True, eq=False)
+class _Moving:
+    """Points of both members, what is looked at there, and how it follows what must stay met."""
 
-    def conditions(x: Batch) -> Batch:
-        z, rho, _ = axial_radial_angle(surface, parameters.edge, x[0], x[1])
-        return jnp.stack(flank.cone.cone_distance_height(z, rho)) - wanted
+    rows: Rows
+    phi: Array  # (n,) pinion angles, rad
+    pinion: HeldPoints
+    wheel: HeldPoints
+    conditions: Array  # (6, n) as held
+    quantities: Array  # (q, n) as held
+    follow: Array  # (n, q, 6) change of the quantities per unit of what the conditions leave
 
-    s, turn, _ = flank.parameters([distance], [0.0])
-    x = implicit(conditions, jnp.array([s[0], turn[0]]))
-    return axial_radial_angle(surface, parameters.edge, x[0], x[1])[2]
+
+def _carried(mount: Mounting, phi: Batch, seen: Batch) -> Batch:
+    """Points and normals (6, n) of the pinion in the wheel's frame at pinion angles phi."""
+    point = to_wheel(mount, phi, (seen[0], seen[1], seen[2]))
+    normal = to_wheel(mount, phi, (seen[3], seen[4], seen[5]), free=True)
+    return jnp.stack((*point, *normal))
 
 
-def implicit(conditions: Callable[[Batch], Batch], start: Batch, steps: int = 1) -> Batch:
-    """Root (k,) of k conditions near a start, with its derivatives by all that they close over."""
-    held = jax.lax.stop_gradient
+def _about_wheel(seen: Batch) -> tuple[Batch, ...]:
+    """z, rho, normal (radial, axial), lever (mm) and angle of points about the wheel's axis."""
+    x, y, z, nx, ny, nz = seen[:6]
+    rho = jnp.hypot(x, y)
+    return z, rho, (x * nx + y * ny) / rho, nz, x * ny - y * nx, jnp.arctan2(y, x)
 
-    def step(x: Batch) -> Batch:
-        return x - jnp.linalg.solve(held(jax.jacfwd(conditions)(x)), conditions(x))
 
-    x = held(start)
-    for _ in range(steps - 1):
-        x = held(step(x))
-    return step(x)
+def _turn(own: Array, seen: Batch) -> Batch:
+    """Angle by which the flank at its last point's place turns about its axis, rad, left hand."""
+    x, y, _, nx, ny, nz, _ = own[:, -1]
+    moved = (seen[:3, -1] - own[:3, -1]) @ np.array([nx, ny, nz])
+    return moved / (x * ny - y * nx)

@@ -25,6 +25,10 @@ from ._envelope import solve_pair as solve_pair
 from ._flank import Flank as Flank
 from ._flank import FlankPoints as FlankPoints
 from ._flank import Side as Side
+from ._held import HeldPoints as HeldPoints
+from ._held import carried_point as carried_point
+from ._held import cutter_and_cradle as cutter_and_cradle
+from ._held import held_points as held_points
 from ._section import lowest as lowest
 from ._status import PointStatus as PointStatus
 from ._tooth import SIDES as SIDES
@@ -37,4 +41,3 @@ from ._tooth_facts import ToothSection as ToothSection
 from ._tooth_facts import tooth_facts as tooth_facts
 from ._traced import FlankParameters as FlankParameters
 from ._traced import flank_parameters as flank_parameters
-from ._traced import traced_surface as traced_surface

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from typing import Any
 
 import jax
@@ -13,7 +13,6 @@ from hypoid.cutter import EdgePiece
 from hypoid.geometry import Batch, Scalar
 from hypoid.machine import Cam, Generator, MachineSettings, Motions, generator
 
-from ._envelope import Surface
 from ._flank import Flank
 
 ORDERS = 6  # of the cradle angle, in every motion
@@ -76,12 +75,3 @@ class FlankParameters:
 def flank_parameters(flank: Flank) -> FlankParameters:
     """The parameters that a flank was cut with, its flank piece the edge."""
     return FlankParameters.of(flank.settings, flank.pieces["flank"])
-
-
-def traced_surface(parameters: FlankParameters, flank: Flank) -> Surface:
-    """The surface that parameters make, meshing at the same root as ``flank``; all may be traced.
-
-    The closed way for a plain roll serves no other, so a face-hobbed flank meshes by Newton here.
-    """
-    way = "newton" if flank.surface.way == "cradle" else flank.surface.way
-    return replace(flank.surface, generator=parameters.generator, way=way)

@@ -16,17 +16,16 @@ import jax.numpy as jnp
 import numpy as np
 
 from hypoid.cutter import EdgePiece
-from hypoid.flank import FlankParameters, Surface, newton_pair, position_and_normal
-from hypoid.geometry import Batch, Batched, Rows, Scalar, Vector, compiled, dot, sine_cosine, turn_z
-from hypoid.machine import (
-    Generator,
-    MachineSettings,
-    Way,
-    mesh_cutter,
-    meshed,
-    place,
-    sweep,
+from hypoid.flank import (
+    FlankParameters,
+    Surface,
+    carried_point,
+    cutter_and_cradle,
+    newton_pair,
+    position_and_normal,
 )
+from hypoid.geometry import Batch, Batched, Rows, Scalar, Vector, compiled, dot
+from hypoid.machine import Generator, MachineSettings, Way
 
 Array = np.ndarray[Any, Any]
 STEPS = 4  # of Newton, from a flank that is near
@@ -63,23 +62,11 @@ def cutting(settings: MachineSettings, piece: EdgePiece, surface: Surface, way: 
     return Cutting(FlankParameters.of(settings, piece), surface.branch, surface.outward, way)
 
 
-def _angles(cut: Cutting, s: Batch, turn: Batch) -> tuple[Batch, ...]:
-    """Cutter's turn theta and cradle angle phi of points, rad."""
-    if cut.way == "cutter":
-        _, mesh = mesh_cutter(cut.generator, cut.piece, s, turn, cut.branch)
-        return -jnp.arctan2(mesh.sine, mesh.cosine), turn
-    at, _ = meshed(cut.generator, cut.piece, s, turn, cut.branch, cut.way)
-    return turn, at.phi
-
-
 def _moved(cut: Cutting, by: Cutting, s: Batch, theta: Batch, phi: Batch) -> tuple[Batch, ...]:
     """dr/dp (left hand, mm) of rigidly carried points along a direction ``by`` of the tree."""
 
     def point(at: Cutting) -> Vector:
-        gen = at.generator
-        carried = place(gen, sweep(gen, at.piece, s, theta), theta, phi)
-        sine, cosine = sine_cosine(-carried.turn)
-        return turn_z(cosine, sine, carried.point)
+        return carried_point(at.parameters, s, theta, phi)
 
     return jax.jvp(point, (cut,), (by,))[1]
 
@@ -104,7 +91,6 @@ def _along(cut: Cutting, s: Batch, turn: Batch, *line: Batch) -> tuple[Batch, ..
     return d, s, turn, jnp.hypot(f, g)
 
 
-_angles_of = Batched(_angles, parameters=1, block=256)
 _moved_by = Batched(_moved, parameters=2, block=256)
 _on_lines = Batched(_along, parameters=1, block=256)
 _on_few_lines = compiled(_along)  # a whole batch's arrays take longer than its few points
@@ -112,7 +98,7 @@ _on_few_lines = compiled(_along)  # a whole batch's arrays take longer than its 
 
 def angles_of(cut: Cutting, s: Array, turn: Array) -> Rows:
     """Cutter's turn and cradle angle (2, n) of points at edge parameters s (mm) and turns, rad."""
-    return _angles_of(cut, s, turn)
+    return cutter_and_cradle(cut.surface, cut.piece, s, turn)
 
 
 def normal_move(

@@ -16,6 +16,7 @@ from ._generator import Meshing as Meshing
 from ._generator import Placed as Placed
 from ._generator import SweptEdge as SweptEdge
 from ._generator import Way as Way
+from ._generator import carried as carried
 from ._generator import mesh_closed as mesh_closed
 from ._generator import mesh_newton as mesh_newton
 from ._generator import meshing_function as meshing_function

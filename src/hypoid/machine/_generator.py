@@ -207,8 +207,14 @@ def place_plain(gen: Generator, edge: SweptEdge, theta: Batch, mesh: Meshing) ->
     return to_member(gen, q, normal, gen.blade_ratio * theta + gen.roll[0] * phi, phi)
 
 
+def carried(gen: Generator, edge: SweptEdge, theta: Batch, phi: Batch) -> tuple[Placed, Batch]:
+    """Edge points (cutter frame) at cradle angles, any motions, meshing or not; and F = n . dr/dphi."""
+    at = pose(gen, phi)
+    r, q, normal, drift = _carried(gen, at, edge)
+    there = to_member(at, q, normal, gen.blade_ratio * theta + at.roll, phi)
+    return there, dot(normal, velocity(at, r, q, drift))
+
+
 def place(gen: Generator, edge: SweptEdge, theta: Batch, phi: Batch) -> Placed:
     """Edge points (cutter frame) at cradle angles, any motions."""
-    at = pose(gen, phi)
-    _, q, normal, _ = _carried(gen, at, edge)
-    return to_member(at, q, normal, gen.blade_ratio * theta + at.roll, phi)
+    return carried(gen, edge, theta, phi)[0]
