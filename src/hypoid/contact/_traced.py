@@ -165,8 +165,8 @@ class TracedContact:
             np.stack([np.asarray(s[k]) for s in slopes], axis=-1).transpose(1, 0, 2) for k in (0, 1)
         )
         follow = np.linalg.solve(conditions.transpose(0, 2, 1), quantities.transpose(0, 2, 1))
-        own = (np.asarray(v) for v in seen(*at))
-        return _Moving(rows, phi, first, second, *own, follow.transpose(0, 2, 1))
+        still_met, own = (np.asarray(v) for v in seen(*at))
+        return _Moving(rows, phi, first, second, still_met, own, follow.transpose(0, 2, 1))
 
     def _moved(self, moving: _Moving, parameters: ContactParameters) -> Batch:
         """(rows, n): how quantities change under parameters, with all that must stay met."""
