@@ -17,8 +17,9 @@ from hypoid.solid import HexMesh, hex_mesh
 from ._bricks import nodal_stress, stiffness
 from ._hats import Hats, hat_loads
 from ._kept import kept
+from ._layers import Progress, node_places
 from ._material import STEEL, Material
-from ._superelement import Progress, condense, matched, ring
+from ._superelement import condense, matched, ring
 
 Array = np.ndarray[Any, Any]
 REACH, SIGHT = 8, 2  # teeth either way whose displacement and whose stress are kept
@@ -141,6 +142,7 @@ def _answers(
         nodal_stress(nodes, mesh.elements, points, made_of),
         (cuts[0], matched(nodes, cuts[0], cuts[1], mesh.pitch)),
         held,
+        node_places(len(nodes), mesh.elements),
         mesh.pitch,
         progress,
     )

@@ -9,8 +9,8 @@ from hypoid.pair import Assumption, Direction, GearPair, Member
 from hypoid.solid import RIM, body
 
 from ._compliance import Elements, Support, ToothCompliance, tooth_compliance
+from ._layers import Progress
 from ._material import STEEL, Material
-from ._superelement import Progress
 
 BASE_SHARE = (
     0.2  # whole depths from the slots down to the ring's base line (see `hypoid.solid.body`)
