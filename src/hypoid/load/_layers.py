@@ -48,7 +48,7 @@ def node_places(count: int, elements: Array) -> Array:
     chain = breadth_first_order(next_to, ends[0], directed=False, return_predecessors=False)
     if len(chain) < columns or len(ends) > 2:
         raise ValueError("the columns of this mesh's elements do not stand one behind the other")
-    rank = np.empty(columns, dtype=int)
+    rank = np.zeros(columns, dtype=int)
     rank[chain] = np.arange(columns)
     return rank[low] + rank[high]
 
