@@ -104,6 +104,23 @@ def test_levers_share_the_moment() -> None:
         last, start = found.rotation, found.touching
 
 
+def test_any_first_guess_ends_in_the_same_contact() -> None:
+    """Sets that differ by few cells border one factor, by many ask for a new one: the answer is the same."""
+    rng = np.random.default_rng(5)
+    *_, compliance, gap = press(4.0, 15, 11)
+    lever = rng.uniform(5.0, 9.0, len(gap))
+    cold = solve_contact(compliance, gap, lever, 4e3)
+    assert 20 < cold.touching.sum() < 140
+    for share in (0.02, 0.1, 0.2, 0.5):
+        start = cold.touching ^ (rng.random(len(gap)) < share)
+        found = solve_contact(compliance, gap, lever, 4e3, start)
+        assert found.outcome is Outcome.OK
+        np.testing.assert_array_equal(found.touching, cold.touching)
+        np.testing.assert_allclose(found.force, cold.force, atol=1e-9 * cold.force.max())
+        assert found.rotation == pytest.approx(cold.rotation, rel=1e-10)
+        assert found.stiffness == pytest.approx(cold.stiffness, rel=1e-9)
+
+
 def test_says_so_when_nothing_can_carry() -> None:
     found = solve_contact(np.eye(2), np.zeros(2), -np.ones(2), 1.0)
     assert found.outcome is Outcome.NO_CONTACT

@@ -17,9 +17,10 @@ from hypoid.geometry import DesignError, Problem
 from hypoid.pair import Direction, GearPair
 
 from ._active_set import Outcome
+from ._cells import Teeth
 from ._compliance import ToothCompliance
-from ._patch import EDGES, Patch, Window, meeting
-from ._position import EDGE, PositionContact, Teeth, position_contact
+from ._patch import EDGES, Patch, meeting
+from ._position import EDGE, Guess, PositionContact, position_contact
 
 Array = np.ndarray[Any, Any]
 Progress = Callable[[str, int, int], None]
@@ -215,22 +216,22 @@ def solved_positions(
     step = unloaded.sampling.positions_per_pitch // per_pitch
     half = unloaded.sampling.pairs // 2
     start = len(unloaded.phi) // 2
-    before: list[dict[int, Window]] = []  # of the last position, by torque
+    before: list[dict[int, Guess]] = []  # of the last position, by torque
     for k in range(per_pitch):
         at = start + k * step
         found = (meeting(unloaded, at, n) for n in range(-half, half + 1))
         meetings = [m for m in found if m is not None]
-        after: list[dict[int, Window]] = []
+        after: list[dict[int, Guess]] = []
         row: list[LoadedPosition] = []
         for t, torque in enumerate(torques):
-            windows: dict[int, Window] = {}
+            guesses: dict[int, Guess] = {}
             if before:
-                windows = before[t]
+                guesses = before[t]
             elif t:
                 grown = min((torque / torques[t - 1]) ** (1.0 / 3.0), GROWN)
-                windows = {n: w.scaled(grown) for n, w in after[-1].items()}
-            contact = position_contact(meetings, teeth, torque, windows)
-            after.append(contact.windows)
+                guesses = {n: g.scaled(grown) for n, g in after[-1].items()}
+            contact = position_contact(meetings, teeth, torque, guesses)
+            after.append(contact.guesses)
             row.append(_position(unloaded, teeth, at, torque, contact))
         before = after
         yield row
