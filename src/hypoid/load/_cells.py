@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ._bearings import RIGID, Bearings, wrenches
 from ._compliance import ToothCompliance
 from ._hats import IMAGE
 from ._love import mirrored_grid, regular_grid
@@ -25,6 +26,7 @@ class Teeth:
     pinion: ToothCompliance
     wheel: ToothCompliance
     sense: int  # teeth of pair k stand k times this many teeth on, by rising left-hand angle
+    bearings: Bearings = RIGID
 
     @property
     def plane_modulus(self) -> float:
@@ -59,6 +61,13 @@ class Cells:
         cells *= 1.0 / (np.pi * p.size[0] * p.size[1])
         return cells
 
+    @cached_property
+    def wrenches(self) -> tuple[Array, Array]:
+        """Wrenches (n, 6) on pinion and wheel of each cell's unit force."""
+        contact = self.patch.meeting.contact
+        mirrored = contact.pinion_flank.mirrored
+        return wrenches(contact.mount, mirrored, self.patch.point, self.patch.normal)
+
     def by(self, other: Cells) -> Array:
         """Displacement (n, m), mm/N, of this pair's cells by forces on the other's."""
         here, there = self.patch.meeting.pair, other.patch.meeting.pair
@@ -67,6 +76,12 @@ class Cells:
         for member, mine, others in zip(members, self.weights, other.weights, strict=True):
             own = mine @ (others @ _between(member, here, there, self.teeth.sense).T).T
             total = total + own if total.size else own
+        bearings = self.teeth.bearings
+        if not bearings.rigid:
+            for held, mine, others in zip(
+                (bearings.pinion, bearings.wheel), self.wrenches, other.wrenches, strict=True
+            ):
+                total += (mine @ held) @ others.T
         if here == there:
             total += self.half_space
         return total

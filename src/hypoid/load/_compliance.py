@@ -22,6 +22,7 @@ from ._material import STEEL, Material
 from ._superelement import condense, matched, ring
 
 Array = np.ndarray[Any, Any]
+FACES = {"bore": "bore", "back": "back_face"}  # by what a design calls them
 REACH, SIGHT = 8, 2  # teeth either way whose displacement and whose stress are kept
 
 
@@ -42,15 +43,17 @@ class Elements:
 
 @dataclass(frozen=True)
 class Support:
-    """How a tooth's body is made and held: faces of `HexMesh` whose nodes do not move in the member's frame."""
+    """Faces of `HexMesh` whose nodes do not move in the member's frame.
 
-    held: tuple[
-        str, ...
-    ] = ()  # empty: the bore of a pinion-like member, the back face of a wheel-like one
+    None named: what the design says, else the bore of a pinion-like member, the back face of a wheel-like one.
+    """
+
+    held: tuple[str, ...] = ()
 
     def faces(self, member: Member) -> tuple[str, ...]:
         steep = member.blank.pitch_angle > 0.25 * np.pi
-        return self.held or (("back_face",) if steep else ("bore",))
+        usual = FACES[member.held or ("back" if steep else "bore")]
+        return self.held or (usual,)
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,11 +12,12 @@ from typing import Any
 
 import numpy as np
 
-from hypoid.contact import Misalignment, Sampling, UnloadedContact, to_wheel, unloaded_contact
+from hypoid.contact import Misalignment, Sampling, UnloadedContact, unloaded_contact
 from hypoid.geometry import DesignError, Problem
 from hypoid.pair import Direction, GearPair
 
 from ._active_set import Outcome
+from ._bearings import Bearings, bearings_of, moved_mounting, wrenches
 from ._cells import Teeth
 from ._compliance import ToothCompliance
 from ._patch import EDGES, Patch, meeting
@@ -66,13 +67,34 @@ class LoadedPosition:
     transmission_error: float  # rad, wheel minus z1/z2 pinion, positive where the wheel leads
     stiffness: float  # N mm/rad, of the pinion's rotation at this torque
     wheel_torque: float  # N mm
-    pinion_axial: float  # N, of the contact on the member along its axis, positive to the heel
-    pinion_radial: float  # N, square to it
-    wheel_axial: float
-    wheel_radial: float
+    pinion_wrench: (
+        Array  # (6,) N, N mm of the contact on the pinion, in its bearings' frame (see `Bearings`)
+    )
+    wheel_wrench: Array
+    pinion_motion: Array  # (6,) mm, rad of the pinion on its bearings
+    wheel_motion: Array
+    misalignment: Misalignment  # that these motions amount to, beyond the one asked for
     pairs: tuple[PairLoad, ...]  # by pair, touching ones only
     outcome: Outcome
     open_window: bool
+
+    @property
+    def pinion_axial(self) -> float:
+        """Force of the contact on the pinion along its axis, N, positive to the heel."""
+        return float(self.pinion_wrench[2])
+
+    @property
+    def pinion_radial(self) -> float:
+        """Force square to the axis, N."""
+        return float(np.hypot(*self.pinion_wrench[:2]))
+
+    @property
+    def wheel_axial(self) -> float:
+        return float(self.wheel_wrench[2])
+
+    @property
+    def wheel_radial(self) -> float:
+        return float(np.hypot(*self.wheel_wrench[:2]))
 
     @property
     def max_pressure(self) -> float:
@@ -176,22 +198,24 @@ def loaded_contact(
     *,
     positions: int = 21,
     misalignment: Misalignment | None = None,
+    bearings: Bearings | None = None,
     pairs: int = 9,
     progress: Progress = lambda *_: None,
 ) -> LoadedContact:
     """Loaded contact under torques on the pinion (N mm, all positive), at positions over two pitches.
 
-    `pinion` and `wheel` are the members' compliance on the flanks of this direction; `positions` is odd, and
-    `pairs` as many tooth pairs as can touch at once. An interrupt keeps the positions that are done. Raises
-    DesignError for torques or counts that mean nothing.
+    `pinion` and `wheel` are the members' compliance on the flanks of this direction; `bearings` stand in for the
+    design's. `positions` is odd, and `pairs` as many tooth pairs as can touch at once. An interrupt keeps the
+    positions that are done. Raises DesignError for torques or counts that mean nothing.
     """
     _check(torques, positions, pairs, direction)
+    held = bearings_of(pair) if bearings is None else bearings
     per_pitch = (positions - 1) // 2
     fine = per_pitch * -(-FINE // per_pitch)
     unloaded = unloaded_contact(
         pair, direction, misalignment, Sampling(positions_per_pitch=fine, pairs=pairs)
     )
-    teeth = Teeth(pinion, wheel, round(float(unloaded.mount.sense)))
+    teeth = Teeth(pinion, wheel, round(float(unloaded.mount.sense)), held)
     rising = sorted(set(torques))
     done: list[list[LoadedPosition]] = []
     try:
@@ -244,20 +268,21 @@ def _position(
     rigid = float(unloaded.curve[at - n * np.arange(-half, half + 1)].max())
     error = rigid - unloaded.index_shift
     mount, rotation = unloaded.mount, found.solution.rotation
-    total, wheel_torque = np.zeros(3), 0.0
+    mirrored = unloaded.pinion_flank.mirrored
+    on_pinion, on_wheel, wheel_torque = np.zeros(6), np.zeros(6), 0.0
     loads: list[PairLoad] = []
     for p, part in zip(found.patches, found.parts, strict=True):
         force = found.solution.force[part]
         if force.sum() > 0.0:
             loads.append(_pair_load(p, force, torque, teeth))
-            total += force @ p.normal  # of the pinion on the wheel
+            one, other = wrenches(mount, mirrored, p.point, p.normal)
+            on_pinion += force @ one
+            on_wheel += force @ other
             wheel_torque += float(p.wheel_lever @ force)
     outcome = found.outcome
     if outcome is Outcome.OK and any(abs(load.pair) == half for load in loads):
         outcome = Outcome.MORE_PAIRS
-    axis = np.array(to_wheel(mount, 0.0, (0.0, 0.0, 1.0), free=True), dtype=float)
-    pinion_axial, wheel_axial = float(-total @ axis), float(total[2])
-    size = float(total @ total)
+    motions = teeth.bearings.pinion @ on_pinion, teeth.bearings.wheel @ on_wheel
     return LoadedPosition(
         float(unloaded.phi[at]),
         rotation,
@@ -265,10 +290,10 @@ def _position(
         error - float(mount.ratio) * rotation,
         found.solution.stiffness,
         wheel_torque,
-        pinion_axial,
-        float(np.sqrt(max(size - pinion_axial**2, 0.0))),
-        wheel_axial,
-        float(np.sqrt(max(size - wheel_axial**2, 0.0))),
+        on_pinion,
+        on_wheel,
+        *motions,
+        moved_mounting(mount, mirrored, *motions),
         tuple(sorted(loads, key=lambda load: load.pair)),
         outcome,
         found.open_window,
