@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 from scipy.integrate import dblquad
@@ -10,6 +13,7 @@ from scipy.special import ellipe, ellipk
 
 from hypoid.load._active_set import Outcome, solve_contact
 from hypoid.load._love import mirrored_grid, parallelogram, rectangle, regular_grid
+from hypoid.load._patch import greatest
 
 MODULUS = 103e3 / 0.91  # E*, MPa: two bodies of 206 GPa and 0.3
 
@@ -59,6 +63,26 @@ def test_hertz_peak_and_approach(ratio: float, columns: int, rows: int) -> None:
     assert found.force.max() / area == pytest.approx(peak, rel=5e-3)
     assert found.rotation == pytest.approx(approach, rel=5e-3)
     assert found.force.sum() == pytest.approx(force, rel=1e-12)
+
+
+def test_the_greatest_pressure_does_not_depend_on_where_the_cells_stand() -> None:
+    """A sphere on 9 x 9 cells, moved by parts of a cell: read between the cells it keeps within 0.4 %, a cell does not."""
+    radius, force, n = 20.0, 1000.0, 11
+    a, _, exact, _ = hertz(1.0, radius, force)
+    size = 2.0 * a / 9.0
+    cells, read = [], []
+    for shift in (0.0, 0.15, 0.3, 0.5):
+        x = (np.arange(n) - (n - 1) / 2.0 + shift) * size
+        x, y = (v.ravel() for v in np.meshgrid(x, x, indexing="ij"))
+        compliance = regular_grid(n, n, size, size) / (np.pi * MODULUS * size**2)
+        found = solve_contact(compliance, (x * x + y * y) / (2.0 * radius), np.ones(n * n), force)
+        pressure = found.force / size**2
+        cells.append(pressure.max() / exact)
+        on: Any = SimpleNamespace(on=np.ones((n, n), dtype=bool))
+        read.append(greatest(on, pressure, np.ones(n * n, dtype=bool)) / exact)
+    assert np.ptp(cells) > 0.01
+    assert np.ptp(read) < 0.004
+    assert read[0] == pytest.approx(1.0, abs=0.01)
 
 
 def test_hertz_converges() -> None:

@@ -23,7 +23,7 @@ from ._superelement import condense, matched, ring
 
 Array = np.ndarray[Any, Any]
 FACES = {"bore": "bore", "back": "back_face"}  # by what a design calls them
-REACH, SIGHT = 8, 2  # teeth either way whose displacement and whose stress are kept
+REACH, SIGHT = 12, 2  # teeth either way whose displacement and whose stress are kept
 
 
 @dataclass(frozen=True)
