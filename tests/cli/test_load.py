@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import json
+import signal
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -82,3 +85,64 @@ def test_no_torque(hypoid: Any) -> None:
     status, _, err = hypoid("load", RELIEF)
     assert status == 2
     assert '--torque "110 N m"' in err
+
+
+@pytest.mark.slow
+def test_a_report_under_load(hypoid: Any, tmp_path: Path) -> None:
+    target = tmp_path / "report.html"
+    words = ("--torque", "10 N m", "--torque", "30 N m", "-o", str(target))
+    status, _, _ = hypoid("report", RELIEF, *words, *QUICK)
+    assert status == 0
+    text = target.read_text(encoding="utf-8")
+    section = text[text.index('id="under-load"') :]
+    assert section.count("<svg") >= 2
+    assert "Harris map" in section
+    assert "206 GPa" in section
+
+
+def test_a_report_tells_what_is_wrong_with_its_load_before_it_computes(hypoid: Any) -> None:
+    status, _, err = hypoid("report", RELIEF, "--torque", "5", "--poissons-ratio", "0.6")
+    assert status == 2
+    assert "--torque" in err
+    assert "--poissons-ratio" in err
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
+def test_an_interrupt_of_the_real_command_keeps_finished_positions(tmp_path: Path) -> None:
+    """SIGINT after the first position: status 130, JSON with those done, and nothing else on standard output."""
+    words = [
+        "load",
+        RELIEF,
+        "--torque",
+        "30 N m",
+        "--mesh",
+        "coarse",
+        "--positions",
+        "81",
+        "--json",
+    ]
+    code = (
+        "import sys; from hypoid.cli import main; import hypoid.load._loaded as l, os, signal\n"
+        "made = l._position\n"
+        "def position(*given):\n"
+        "    found = made(*given)\n"
+        "    print('position', file=sys.stderr, flush=True)\n"
+        "    return found\n"
+        "l._position = position\n"
+        f"sys.exit(main({words!r}))"
+    )
+    process = subprocess.Popen(
+        [sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
+    assert process.stderr is not None
+    for line in process.stderr:
+        if line.startswith("position"):
+            process.send_signal(signal.SIGINT)
+            break
+    out, err = process.communicate(timeout=120)
+    assert process.returncode == 130, err
+    result = json.loads(out)
+    assert result["complete"] is False
+    assert 1 <= len(result["cases"][0]["positions"]) < 40
+    assert "Interrupted" in err

@@ -22,8 +22,9 @@ from hypoid.load import (
     root_stress,
     tooth_compliance,
 )
+from hypoid.load._cells import Cells, compliance
 from hypoid.load._patch import Window, meeting, patch
-from hypoid.load._position import compliance, position_contact
+from hypoid.load._position import position_contact
 from hypoid.pair import GearPair
 
 from .conftest import QUICK, TORQUES
@@ -59,7 +60,7 @@ def test_moments_are_in_equilibrium(loaded: LoadedContact) -> None:
 
 def test_compliance_of_all_cells_is_symmetric_and_positive(loaded: LoadedContact) -> None:
     found = at(loaded, TORQUES[-1])
-    matrix = compliance(found.patches, loaded.teeth)
+    matrix = compliance([Cells(p, loaded.teeth) for p in found.patches])
     np.testing.assert_allclose(matrix, matrix.T, atol=1e-12 * np.abs(matrix).max())
     assert np.linalg.eigvalsh(matrix)[0] > 0.0
 
@@ -71,7 +72,9 @@ def test_no_cell_cuts_and_none_pulls(loaded: LoadedContact) -> None:
     gap = np.concatenate([p.gap for p in found.patches])
     lever = np.concatenate([p.pinion_lever for p in found.patches])
     under = (
-        gap + compliance(found.patches, loaded.teeth) @ solution.force - lever * solution.rotation
+        gap
+        + compliance([Cells(p, loaded.teeth) for p in found.patches]) @ solution.force
+        - lever * solution.rotation
     )
     assert under.min() > -2e-9
     assert np.abs(under[solution.touching]).max() < 1e-9
@@ -122,7 +125,7 @@ def test_more_torque_turns_further_and_presses_harder(loaded: LoadedContact) -> 
 def test_stiffness_is_the_slope_of_torque(loaded: LoadedContact) -> None:
     found = at(loaded, 11e4)
     more = position_contact(
-        [p.meeting for p in found.patches], loaded.teeth, 11.02e4, found.windows
+        [p.meeting for p in found.patches], loaded.teeth, 11.02e4, found.guesses
     )
     slope = 200.0 / (more.solution.rotation - found.solution.rotation)
     assert slope == pytest.approx(found.solution.stiffness, rel=0.02)
@@ -148,7 +151,7 @@ def test_four_times_the_cells_change_little(
     for module in ("_patch", "_position"):
         monkeypatch.setattr(f"hypoid.load.{module}.COLUMNS", 50)
         monkeypatch.setattr(f"hypoid.load.{module}.ROWS", 22)
-    fine = position_contact([p.meeting for p in found.patches], loaded.teeth, 11e4, found.windows)
+    fine = position_contact([p.meeting for p in found.patches], loaded.teeth, 11e4, found.guesses)
     assert fine.solution.rotation == pytest.approx(found.solution.rotation, rel=3e-3)
     peaks = [
         (fine.solution.force[part] / p.area).max()

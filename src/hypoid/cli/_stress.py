@@ -4,22 +4,11 @@ from __future__ import annotations
 
 from dataclasses import asdict
 from math import degrees
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._load import (
-    NM,
-    Direction,
-    Figure,
-    Mesh,
-    Signed,
-    Torques,
-    computed,
-    ended,
-    request,
-    write_figure,
-)
+from ._load_options import NM, Figure, LoadOptions, computed_for, ended, write_figure
 from ._options import AsJson, DesignPath
 from ._output import write_json, write_table
 
@@ -27,22 +16,14 @@ if TYPE_CHECKING:
     from hypoid.load import RootStress
 
 SIDES = ("concave", "convex")
+USUAL = LoadOptions()
 
 
 def stress(
     file: DesignPath,
     /,
     *,
-    torque: Torques = None,
-    direction: Direction = "drive",
-    positions: int = 21,
-    youngs_modulus: str = "206 GPa",
-    poissons_ratio: float = 0.3,
-    mesh: Mesh = "usual",
-    offset: Annotated[str, Signed] = "0 mm",
-    pinion_axial: Annotated[str, Signed] = "0 mm",
-    wheel_axial: Annotated[str, Signed] = "0 mm",
-    shaft_angle: Annotated[str, Signed] = "0 deg",
+    options: LoadOptions = USUAL,
     figure: Figure = None,
     json: AsJson = False,
 ) -> int:
@@ -50,22 +31,7 @@ def stress(
 
     Options are those of `hypoid load`; what that has computed is not computed again.
     """
-    asked = request(
-        torque,
-        direction,
-        positions,
-        youngs_modulus,
-        poissons_ratio,
-        mesh,
-        {
-            "--offset": offset,
-            "--pinion-axial": pinion_axial,
-            "--wheel-axial": wheel_axial,
-            "--shaft-angle": shaft_angle,
-        },
-        figure,
-    )
-    found = computed(file, asked)
+    found = computed_for(file, options, figure)
     if figure is not None:
         from hypoid.report import root_stress_figure
 
@@ -83,7 +49,7 @@ def stress(
         assumed = [asdict(a) for a in found.assumed]
         write_json(
             {
-                "direction": direction,
+                "direction": options.direction,
                 "complete": found.loaded.complete,
                 "cases": cases,
                 "assumed": assumed,

@@ -6,6 +6,9 @@ Names that need JAX are loaded when first asked for.
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from ._bearings import STIFFNESS_EXAMPLE as STIFFNESS_EXAMPLE
+from ._bearings import STIFFNESS_EXPECTED as STIFFNESS_EXPECTED
+from ._bearings import bearing_compliance as bearing_compliance
 from ._blank import Spec as Spec
 from ._blank import sheet_blank as sheet_blank
 from ._blank import spec_blank as spec_blank

@@ -32,4 +32,11 @@ def build(spec: Spec) -> GearPair:
 
 def _carried(member: Member, body: BodySpec) -> Member:
     bore = None if body.bore_diameter is None else 0.5 * body.bore_diameter
-    return replace(member, bore=bore, mounting_distance=body.mounting_distance)
+    return replace(
+        member,
+        bore=bore,
+        mounting_distance=body.mounting_distance,
+        tip_rounding=body.tip_rounding,
+        held=body.held,
+        bearing_stiffness=body.stiffness,
+    )

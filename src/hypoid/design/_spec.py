@@ -34,6 +34,10 @@ class BodySpec:
 
     bore_diameter: float | None = None
     mounting_distance: float | None = None  # crossing point to back face, along the axis
+    tip_rounding: float = 0.0  # radius between flank and top land
+    held: Literal["bore", "back"] | None = None  # face that does not move on its shaft
+    # Shaft and bearings, see `bearing_compliance`; N/mm, N, N mm/rad. None: rigid.
+    stiffness: tuple[tuple[float, ...], ...] | None = None
 
 
 @dataclass(frozen=True)

@@ -43,6 +43,8 @@ def fit_line(values: Float[np.ndarray[Any, Any], "... i"]) -> Float[np.ndarray[A
 
 def horner_line(coefficients: Any, x: Batch) -> Batch:
     """Value at x in [-1, 1] of a polynomial given by its powers (i,)."""
+    if isinstance(x, np.ndarray) and x.ndim == 1:
+        return np.asarray(coefficients) @ _powers(x, coefficients.shape[0])
     total = coefficients[-1] + 0.0 * x
     for k in range(coefficients.shape[0] - 2, -1, -1):
         total = total * x + coefficients[k]
@@ -52,8 +54,12 @@ def horner_line(coefficients: Any, x: Batch) -> Batch:
 def horner(coefficients: Any, x: Batch, y: Batch) -> Batch:
     """Value at (x, y) in [-1, 1]**2 of a tensor polynomial given by its powers (i, j).
 
-    All columns at once, then along the row: few operations to trace, and XLA fuses them anyway.
+    All columns at once, then along the row: few operations to trace, and XLA fuses them anyway. Numbers in NumPy go
+    through a table of powers, which is one small matrix product.
     """
+    if isinstance(x, np.ndarray) and isinstance(y, np.ndarray) and x.ndim == y.ndim == 1:
+        by_x, by_y = (_powers(v, n) for v, n in zip((x, y), coefficients.shape, strict=True))
+        return ((np.asarray(coefficients).T @ by_x) * by_y).sum(axis=0)
     spread = coefficients.reshape(*coefficients.shape, *(1,) * np.ndim(x))
     columns = spread[-1] + 0.0 * x
     for k in range(coefficients.shape[0] - 2, -1, -1):
@@ -62,6 +68,16 @@ def horner(coefficients: Any, x: Batch, y: Batch) -> Batch:
     for k in range(coefficients.shape[1] - 2, -1, -1):
         total = total * y + columns[k]
     return total
+
+
+def _powers(x: Any, count: int) -> Any:
+    """Powers (count, n) of x (n,), from 1 up; a pair of halves at a time."""
+    made = np.ones((count, len(x)))
+    if count > 1:
+        made[1] = x
+    for k in range(2, count):
+        made[k] = made[k // 2] * made[k - k // 2]
+    return made
 
 
 def on_unit(low: Any, high: Any, value: Any) -> Any:

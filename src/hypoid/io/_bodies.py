@@ -11,6 +11,12 @@ from ._sheet_file import SummarySheetFile
 def bodies_of(file: DesignFile | SummarySheetFile) -> dict[str, BodySpec]:
     """By member."""
     return {
-        name: BodySpec(member.body.bore_diameter, member.body.mounting_distance)
+        name: BodySpec(
+            member.body.bore_diameter,
+            member.body.mounting_distance,
+            member.body.tip_rounding,
+            member.support.held,
+            member.support.stiffness and tuple(tuple(row) for row in member.support.stiffness),
+        )
         for name, member in (("pinion", file.pinion), ("wheel", file.wheel))
     }

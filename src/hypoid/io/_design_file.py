@@ -19,6 +19,7 @@ from ._keys import (
     Pair,
     PerLength,
     Settings,
+    SupportTable,
     Table,
 )
 from ._keys import key as _key
@@ -37,6 +38,7 @@ class Member(Table):
     concave: Flank = _key("a table", {}, default=Flank())
     convex: Flank = _key("a table", {}, default=Flank())
     body: BodyTable = _key("a table", {"bore_diameter": "40 mm"}, default=BodyTable())
+    support: SupportTable = _key("a table", {"held": "bore"}, default=SupportTable())
 
 
 class Pinion(Member):

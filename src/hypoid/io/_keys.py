@@ -14,6 +14,8 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSche
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError
 
+from hypoid.design import STIFFNESS_EXAMPLE, STIFFNESS_EXPECTED, bearing_compliance
+
 from ._quantity import Kind, QuantityError, parse
 
 DEG = pi / 180
@@ -115,6 +117,36 @@ class BodyTable(Table):
 
     bore_diameter: Length | None = key("a length above 0", "40 mm", default=None, gt=0, le=LARGEST)
     mounting_distance: Length | None = any_length("95 mm")
+    tip_rounding: Length = key(
+        "a length of 0 or more, the radius between flank and top land",
+        "0.2 mm",
+        default="0 mm",
+        validate_default=True,
+        ge=0,
+        le=LARGEST,
+    )
+
+
+def _read_stiffness(given: object) -> object:
+    """A validator: what `bearing_compliance` takes."""
+    try:
+        bearing_compliance(given)  # pyright: ignore[reportArgumentType]
+    except ValueError as error:
+        about = {"why": str(error)}
+        raise PydanticCustomError("stiffness", "{why}", about) from None
+    return [[float(v) for v in row] for row in given]  # pyright: ignore
+
+
+Stiffness = Annotated[list[list[float]], BeforeValidator(_read_stiffness)]
+
+
+class SupportTable(Table):
+    """[pinion.support], [wheel.support]: what holds the member's body."""
+
+    held: Literal["bore", "back"] | None = key(
+        '"bore" or "back", the face that its shaft holds', "bore", default=None
+    )
+    stiffness: Stiffness | None = key(STIFFNESS_EXPECTED, STIFFNESS_EXAMPLE, default=None)
 
 
 class Contact(Table):

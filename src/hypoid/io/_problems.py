@@ -145,6 +145,8 @@ def _problem(error: ErrorDetails, document: Document, model: type[BaseModel]) ->
     if error["type"] == "quantity":
         expected = f"{expected}, as {error['msg']}"
         example = assigned(name, _first_that_works(field, context["example"]))
+    elif error["type"] == "stiffness":
+        expected = f"{expected}; this is {error['msg']}"
     elif (most := abs(context.get("le", context.get("ge", 0)))) in (LARGEST, 2 * LARGEST):
         expected += f", up to {most / 1e3:g} m"
     given = "nothing" if error["type"] == "missing" else shown(value_at(document, loc))

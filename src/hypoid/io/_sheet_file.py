@@ -18,6 +18,7 @@ from ._keys import (
     DesignTable,
     Length,
     Pair,
+    SupportTable,
     Table,
     any_length,
     key,
@@ -83,6 +84,7 @@ class SheetMember(Table):
     concave: SheetFlank = key("a table", {}, default=SheetFlank())
     convex: SheetFlank = key("a table", {}, default=SheetFlank())
     body: BodyTable = key("a table", {"bore_diameter": "40 mm"}, default=BodyTable())
+    support: SupportTable = key("a table", {"held": "bore"}, default=SupportTable())
 
 
 class SheetPair(Pair):

@@ -3,6 +3,9 @@
 from ._active_set import ContactSolution as ContactSolution
 from ._active_set import Outcome as Outcome
 from ._active_set import solve_contact as solve_contact
+from ._bearings import RIGID as RIGID
+from ._bearings import Bearings as Bearings
+from ._bearings import bearings_of as bearings_of
 from ._compliance import Elements as Elements
 from ._compliance import Support as Support
 from ._compliance import ToothCompliance as ToothCompliance

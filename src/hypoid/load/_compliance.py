@@ -17,11 +17,13 @@ from hypoid.solid import HexMesh, hex_mesh
 from ._bricks import nodal_stress, stiffness
 from ._hats import Hats, hat_loads
 from ._kept import kept
+from ._layers import Progress, node_places
 from ._material import STEEL, Material
-from ._superelement import Progress, condense, matched, ring
+from ._superelement import condense, matched, ring
 
 Array = np.ndarray[Any, Any]
-REACH, SIGHT = 8, 2  # teeth either way whose displacement and whose stress are kept
+FACES = {"bore": "bore", "back": "back_face"}  # by what a design calls them
+REACH, SIGHT = 12, 2  # teeth either way whose displacement and whose stress are kept
 
 
 @dataclass(frozen=True)
@@ -41,15 +43,17 @@ class Elements:
 
 @dataclass(frozen=True)
 class Support:
-    """How a tooth's body is made and held: faces of `HexMesh` whose nodes do not move in the member's frame."""
+    """Faces of `HexMesh` whose nodes do not move in the member's frame.
 
-    held: tuple[
-        str, ...
-    ] = ()  # empty: the bore of a pinion-like member, the back face of a wheel-like one
+    None named: what the design says, else the bore of a pinion-like member, the back face of a wheel-like one.
+    """
+
+    held: tuple[str, ...] = ()
 
     def faces(self, member: Member) -> tuple[str, ...]:
         steep = member.blank.pitch_angle > 0.25 * np.pi
-        return self.held or (("back_face",) if steep else ("bore",))
+        usual = FACES[member.held or ("back" if steep else "bore")]
+        return self.held or (usual,)
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,6 +145,7 @@ def _answers(
         nodal_stress(nodes, mesh.elements, points, made_of),
         (cuts[0], matched(nodes, cuts[0], cuts[1], mesh.pitch)),
         held,
+        node_places(len(nodes), mesh.elements),
         mesh.pitch,
         progress,
     )

@@ -45,10 +45,11 @@ class Hats:
         j = np.clip((line < height[:, None]).sum(axis=1) - 1, 0, rows - 2)
         k = np.arange(len(j))
         v = np.clip((height - line[k, j]) / (line[k, j + 1] - line[k, j]), 0.0, 1.0)
-        at = np.stack([i * rows + j, (i + 1) * rows + j, i * rows + j + 1, (i + 1) * rows + j + 1])
-        values = np.stack([(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v])
-        index = (np.tile(k, 4), at.ravel())
-        return sparse.coo_array((values.ravel(), index), shape=(len(j), self.count)).tocsr()
+        knot = i * rows + j
+        at = np.stack([knot, knot + 1, knot + rows, knot + rows + 1], axis=1)
+        values = np.stack([(1 - u) * (1 - v), (1 - u) * v, u * (1 - v), u * v], axis=1)
+        ends = 4 * np.arange(len(j) + 1)
+        return sparse.csr_array((values.ravel(), at.ravel(), ends), shape=(len(j), self.count))
 
 
 @dataclass(frozen=True, eq=False)

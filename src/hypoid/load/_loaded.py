@@ -11,19 +11,23 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
-from hypoid.contact import Misalignment, Sampling, UnloadedContact, to_wheel, unloaded_contact
+from hypoid.contact import Misalignment, Sampling, UnloadedContact, unloaded_contact
 from hypoid.geometry import DesignError, Problem
 from hypoid.pair import Direction, GearPair
 
 from ._active_set import Outcome
+from ._bearings import Bearings, bearings_of, moved_mounting, wrenches
+from ._cells import Teeth
 from ._compliance import ToothCompliance
-from ._patch import EDGES, Patch, Window, meeting
-from ._position import EDGE, PositionContact, Teeth, position_contact
+from ._patch import EDGES, Patch, greatest, meeting
+from ._position import EDGE, Guess, PositionContact, position_contact
 
 Array = np.ndarray[Any, Any]
 Progress = Callable[[str, int, int], None]
 FINE = 40  # positions a pitch of the unloaded contact, at least
+PAIRS = (9, 11, 13)  # tooth pairs that are looked at, more where the outermost carries load
 GROWN = 2.0  # times: the most that a contact is thought to grow from one torque to the next
 
 
@@ -65,13 +69,34 @@ class LoadedPosition:
     transmission_error: float  # rad, wheel minus z1/z2 pinion, positive where the wheel leads
     stiffness: float  # N mm/rad, of the pinion's rotation at this torque
     wheel_torque: float  # N mm
-    pinion_axial: float  # N, of the contact on the member along its axis, positive to the heel
-    pinion_radial: float  # N, square to it
-    wheel_axial: float
-    wheel_radial: float
+    pinion_wrench: (
+        Array  # (6,) N, N mm of the contact on the pinion, in its bearings' frame (see `Bearings`)
+    )
+    wheel_wrench: Array
+    pinion_motion: Array  # (6,) mm, rad of the pinion on its bearings
+    wheel_motion: Array
+    misalignment: Misalignment  # that these motions amount to, beyond the one asked for
     pairs: tuple[PairLoad, ...]  # by pair, touching ones only
     outcome: Outcome
     open_window: bool
+
+    @property
+    def pinion_axial(self) -> float:
+        """Force of the contact on the pinion along its axis, N, positive to the heel."""
+        return float(self.pinion_wrench[2])
+
+    @property
+    def pinion_radial(self) -> float:
+        """Force square to the axis, N."""
+        return float(np.hypot(*self.pinion_wrench[:2]))
+
+    @property
+    def wheel_axial(self) -> float:
+        return float(self.wheel_wrench[2])
+
+    @property
+    def wheel_radial(self) -> float:
+        return float(np.hypot(*self.wheel_wrench[:2]))
 
     @property
     def max_pressure(self) -> float:
@@ -100,8 +125,20 @@ class LoadCase:
 
     @property
     def peak_to_peak(self) -> float:
-        """Peak to peak of the transmission error under load, between the positions looked at, rad."""
-        return float(np.ptp(self.transmission_error))
+        """Peak to peak of the transmission error under load, between positions, too, rad.
+
+        That of a periodic cubic spline through one pitch of them; of the positions alone where the cycle was cut short.
+        """
+        own = self.transmission_error[: self.per_pitch]
+        return _spline_range(own) if len(own) == self.per_pitch else float(np.ptp(own))
+
+    @property
+    def peak_to_peak_doubt(self) -> float:
+        """How far every second position alone would put the peak to peak elsewhere, rad; NaN for odd counts."""
+        own = self.transmission_error[: self.per_pitch]
+        if len(own) < self.per_pitch or len(own) % 2 or len(own) < 6:
+            return float("nan")
+        return abs(_spline_range(own) - _spline_range(own[::2]))
 
     @property
     def max_pressure(self) -> float:
@@ -175,37 +212,54 @@ def loaded_contact(
     *,
     positions: int = 21,
     misalignment: Misalignment | None = None,
-    pairs: int = 9,
+    bearings: Bearings | None = None,
+    pairs: int | None = None,
     progress: Progress = lambda *_: None,
 ) -> LoadedContact:
     """Loaded contact under torques on the pinion (N mm, all positive), at positions over two pitches.
 
-    `pinion` and `wheel` are the members' compliance on the flanks of this direction; `positions` is odd, and
-    `pairs` as many tooth pairs as can touch at once. An interrupt keeps the positions that are done. Raises
-    DesignError for torques or counts that mean nothing.
+    `pinion` and `wheel` are the members' compliance on the flanks of this direction; `bearings` stand in for the
+    design's. `positions` is odd. `pairs` tooth pairs are looked at; by default 9, and more where the outermost
+    carries load. An interrupt keeps the positions that are done. Raises DesignError for torques or counts that mean
+    nothing.
     """
-    _check(torques, positions, pairs, direction)
+    _check(torques, positions, PAIRS[0] if pairs is None else pairs, direction)
+    held = bearings_of(pair) if bearings is None else bearings
     per_pitch = (positions - 1) // 2
     fine = per_pitch * -(-FINE // per_pitch)
-    unloaded = unloaded_contact(
-        pair, direction, misalignment, Sampling(positions_per_pitch=fine, pairs=pairs)
-    )
-    teeth = Teeth(pinion, wheel, round(float(unloaded.mount.sense)))
-    rising = sorted(set(torques))
+    for count in PAIRS if pairs is None else (pairs,):
+        unloaded = unloaded_contact(
+            pair, direction, misalignment, Sampling(positions_per_pitch=fine, pairs=count)
+        )
+        teeth = Teeth(pinion, wheel, round(float(unloaded.mount.sense)), held)
+        found = _solved(unloaded, teeth, sorted(set(torques)), per_pitch, progress)
+        if not any(at.outcome is Outcome.MORE_PAIRS for case in found for at in case.positions):
+            break
+    complete = len(found[0].positions) > per_pitch
+    return LoadedContact(pair, direction, unloaded, teeth, found, complete)
+
+
+def _solved(
+    unloaded: UnloadedContact,
+    teeth: Teeth,
+    torques: Sequence[float],
+    per_pitch: int,
+    progress: Progress,
+) -> tuple[LoadCase, ...]:
+    """Cases of rising torques; an interrupt after the first position keeps what is done."""
     done: list[list[LoadedPosition]] = []
     try:
-        for found in solved_positions(unloaded, teeth, rising, per_pitch):
+        for found in solved_positions(unloaded, teeth, torques, per_pitch):
             done.append(found)
             progress("loaded contact", len(done), per_pitch)
     except KeyboardInterrupt:
         if not done:
             raise
     complete = len(done) == per_pitch
-    cases = tuple(
+    return tuple(
         LoadCase(torque, _spread([d[k] for d in done], unloaded.pitch, complete), per_pitch)
-        for k, torque in enumerate(rising)
+        for k, torque in enumerate(torques)
     )
-    return LoadedContact(pair, direction, unloaded, teeth, cases, complete)
 
 
 def solved_positions(
@@ -215,22 +269,22 @@ def solved_positions(
     step = unloaded.sampling.positions_per_pitch // per_pitch
     half = unloaded.sampling.pairs // 2
     start = len(unloaded.phi) // 2
-    before: list[dict[int, Window]] = []  # of the last position, by torque
+    before: list[dict[int, Guess]] = []  # of the last position, by torque
     for k in range(per_pitch):
         at = start + k * step
         found = (meeting(unloaded, at, n) for n in range(-half, half + 1))
         meetings = [m for m in found if m is not None]
-        after: list[dict[int, Window]] = []
+        after: list[dict[int, Guess]] = []
         row: list[LoadedPosition] = []
         for t, torque in enumerate(torques):
-            windows: dict[int, Window] = {}
+            guesses: dict[int, Guess] = {}
             if before:
-                windows = before[t]
+                guesses = before[t]
             elif t:
                 grown = min((torque / torques[t - 1]) ** (1.0 / 3.0), GROWN)
-                windows = {n: w.scaled(grown) for n, w in after[-1].items()}
-            contact = position_contact(meetings, teeth, torque, windows)
-            after.append(contact.windows)
+                guesses = {n: g.scaled(grown) for n, g in after[-1].items()}
+            contact = position_contact(meetings, teeth, torque, guesses)
+            after.append(contact.guesses)
             row.append(_position(unloaded, teeth, at, torque, contact))
         before = after
         yield row
@@ -243,20 +297,21 @@ def _position(
     rigid = float(unloaded.curve[at - n * np.arange(-half, half + 1)].max())
     error = rigid - unloaded.index_shift
     mount, rotation = unloaded.mount, found.solution.rotation
-    total, wheel_torque = np.zeros(3), 0.0
+    mirrored = unloaded.pinion_flank.mirrored
+    on_pinion, on_wheel, wheel_torque = np.zeros(6), np.zeros(6), 0.0
     loads: list[PairLoad] = []
     for p, part in zip(found.patches, found.parts, strict=True):
         force = found.solution.force[part]
         if force.sum() > 0.0:
             loads.append(_pair_load(p, force, torque, teeth))
-            total += force @ p.normal  # of the pinion on the wheel
+            one, other = wrenches(mount, mirrored, p.point, p.normal)
+            on_pinion += force @ one
+            on_wheel += force @ other
             wheel_torque += float(p.wheel_lever @ force)
     outcome = found.outcome
     if outcome is Outcome.OK and any(abs(load.pair) == half for load in loads):
         outcome = Outcome.MORE_PAIRS
-    axis = np.array(to_wheel(mount, 0.0, (0.0, 0.0, 1.0), free=True), dtype=float)
-    pinion_axial, wheel_axial = float(-total @ axis), float(total[2])
-    size = float(total @ total)
+    motions = teeth.bearings.pinion @ on_pinion, teeth.bearings.wheel @ on_wheel
     return LoadedPosition(
         float(unloaded.phi[at]),
         rotation,
@@ -264,14 +319,21 @@ def _position(
         error - float(mount.ratio) * rotation,
         found.solution.stiffness,
         wheel_torque,
-        pinion_axial,
-        float(np.sqrt(max(size - pinion_axial**2, 0.0))),
-        wheel_axial,
-        float(np.sqrt(max(size - wheel_axial**2, 0.0))),
+        on_pinion,
+        on_wheel,
+        *motions,
+        moved_mounting(mount, mirrored, *motions),
         tuple(sorted(loads, key=lambda load: load.pair)),
         outcome,
         found.open_window,
     )
+
+
+def _spline_range(values: Array) -> float:
+    """Greatest less least of a periodic cubic spline through even steps of a period."""
+    line = CubicSpline(np.arange(len(values) + 1), np.append(values, values[0]), bc_type="periodic")
+    turns = line.derivative().roots(extrapolate=False)
+    return float(np.ptp(np.concatenate([values, line(turns[np.isfinite(turns)])])))
 
 
 def _pair_load(p: Patch, force: Array, torque: float, teeth: Teeth) -> PairLoad:
@@ -282,7 +344,7 @@ def _pair_load(p: Patch, force: Array, torque: float, teeth: Teeth) -> PairLoad:
         pair=p.meeting.pair,
         share=float(p.pinion_lever @ force) / torque,
         force=float(force.sum()),
-        max_pressure=float(pressure[inner].max(initial=0.0)),
+        max_pressure=greatest(p, pressure, inner),
         edge_pressure=float(pressure[~inner].max(initial=0.0)),
         edge_force=float(force[~inner].sum()),
         edge=EDGES[p.edge_name[sharp]] if not inner[sharp] and force[sharp] > 0.0 else "",
@@ -328,7 +390,8 @@ def _check(torques: Sequence[float], positions: int, pairs: int, direction: Dire
         problems.append(
             Problem("positions", str(positions), "an odd number, 5 or more, over two pitches", "21")
         )
-    if pairs < 3 or pairs % 2 == 0:
-        problems.append(Problem("pairs", str(pairs), "an odd number, 3 or more", "9"))
+    if pairs < 3 or pairs % 2 == 0 or pairs > PAIRS[-1]:
+        expected = f"an odd number from 3 to {PAIRS[-1]}"
+        problems.append(Problem("pairs", str(pairs), expected, "9"))
     if problems:
         raise DesignError(problems)

@@ -6,6 +6,7 @@ even pressure p is p times these lengths (mm) times that factor.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -38,9 +39,14 @@ def regular_grid(columns: int, rows: int, width: float, height: float) -> Array:
     Cells are `width` by `height`; entry (i, j) is the middle of cell i under an even pressure on cell j.
     """
     x, y = np.arange(columns) * width, np.arange(rows) * height
-    table = rectangle(x[:, None], y[None, :], width, height)
+    return rectangle(x[:, None], y[None, :], width, height).ravel()[_apart(columns, rows)]
+
+
+@lru_cache(maxsize=4)
+def _apart(columns: int, rows: int) -> Array:
+    """Index (n, n) into the table of a grid: how many columns and rows two cells are apart."""
     i, j = (v.ravel() for v in np.meshgrid(np.arange(columns), np.arange(rows), indexing="ij"))
-    return table[np.abs(i[:, None] - i), np.abs(j[:, None] - j)]
+    return np.abs(i[:, None] - i) * rows + np.abs(j[:, None] - j)
 
 
 def mirrored_grid(x: Array, y: Array, line: Array, width: float, height: float) -> Array:
@@ -53,9 +59,10 @@ def mirrored_grid(x: Array, y: Array, line: Array, width: float, height: float) 
     there_x, there_y = x - apart * slope[0], y - apart * slope[1]
     # seen from an eye's image the cell itself is what its image is to the eye
     dx, dy = there_x[:, None] - x, there_y[:, None] - y
-    away = np.hypot(dx, dy)
-    near = away < NEAR * max(width, height)
-    seen = width * height / np.where(near, 1.0, away)
+    away = dx * dx + dy * dy
+    near = np.nonzero(away < (NEAR * max(width, height)) ** 2)
+    away[near] = 1.0
+    seen = width * height / np.sqrt(away)
     seen[near] = rectangle(dx[near], dy[near], width, height)
     return 0.5 * (seen + seen.T)
 

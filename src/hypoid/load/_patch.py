@@ -220,6 +220,27 @@ class Patch:
         return len(self.gap)
 
 
+def greatest(p: Patch, pressure: Array, among: Array) -> float:
+    """Greatest pressure, MPa, of the cells `among` (n,), between cells, too.
+
+    Where cells touch on both sides of the greatest, a parabola goes through the pressures' squares: Hertz's ellipsoid
+    is one, whatever the grid's place on it.
+    """
+    if not among.any() or not pressure[among].max() > 0.0:
+        return 0.0
+    squares = np.zeros(p.on.shape)
+    squares[p.on] = pressure * pressure
+    at = np.argwhere(p.on)[np.flatnonzero(among)[pressure[among].argmax()]]
+    top = squares[tuple(at)]
+    gain = 0.0
+    for axis, step in enumerate(np.eye(2, dtype=int)):
+        if 0 < at[axis] < p.on.shape[axis] - 1:
+            before, after = squares[tuple(at - step)], squares[tuple(at + step)]
+            if min(before, after) > 0.0 and max(before, after) < top:
+                gain += 0.125 * (after - before) ** 2 / (2.0 * top - before - after)
+    return float(np.sqrt(top + gain))
+
+
 def patch(met: Meeting, window: Window) -> Patch:
     """The cells of a window."""
     size = (np.ptp(window.along) / COLUMNS, np.ptp(window.across) / ROWS)

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from math import pi
 
 from hypoid.pair import Assumption, Direction, GearPair, Member
 from hypoid.solid import RIM, body
 
-from ._compliance import Elements, Support, ToothCompliance, tooth_compliance
+from ._compliance import FACES, Elements, Support, ToothCompliance, tooth_compliance
+from ._layers import Progress
 from ._material import STEEL, Material
-from ._superelement import Progress
 
 BASE_SHARE = (
     0.2  # whole depths from the slots down to the ring's base line (see `hypoid.solid.body`)
@@ -28,15 +29,25 @@ def pair_compliance(
     made_of: Material = STEEL,
     elements: Elements | None = None,
     progress: Progress = lambda *_: None,
+    held: Mapping[str, str] | None = None,
 ) -> tuple[ToothCompliance, ToothCompliance]:
-    """Compliance of pinion and wheel on the flanks of a direction; from the disk where it was computed before."""
+    """Compliance of pinion and wheel on the flanks of a direction; from the disk where it was computed before.
+
+    `held` names by member the face, "bore" or "back", that its shaft holds, where it is not the design's.
+    """
     sizes = elements or MESHES["usual"]
     flanks = zip((pair.pinion, pair.wheel), pair.mates(direction), strict=True)
     found = [
-        tooth_compliance(member, flank.side, made_of, sizes, progress=progress)
+        tooth_compliance(member, flank.side, made_of, sizes, support(member, held), progress)
         for member, flank in flanks
     ]
     return found[0], found[1]
+
+
+def support(member: Member, held: Mapping[str, str] | None = None) -> Support:
+    """How a member is held: as asked, or else as the design says."""
+    asked = (held or {}).get(member.name)
+    return Support((FACES[asked],) if asked else Support().faces(member))
 
 
 def rim_thickness(member: Member) -> float:
@@ -63,8 +74,10 @@ def warnings(pair: GearPair) -> tuple[str, ...]:
     return tuple(words)
 
 
-def assumptions(pair: GearPair, made_of: Material) -> tuple[Assumption, ...]:
-    """What the design does not say and the loaded contact needs."""
+def assumptions(
+    pair: GearPair, made_of: Material, held: Mapping[str, str] | None = None, rigid: bool = False
+) -> tuple[Assumption, ...]:
+    """What the design does not say and the loaded contact needs; `rigid` where its bearings are left out."""
     values = [
         Assumption(
             f"material: E = {made_of.youngs_modulus * 1e-3:g} GPa, nu = {made_of.poissons_ratio:g}",
@@ -72,10 +85,11 @@ def assumptions(pair: GearPair, made_of: Material) -> tuple[Assumption, ...]:
         )
     ]
     for member in (pair.pinion, pair.wheel):
-        face = Support().faces(member)[0].replace("_", " ")
-        values.append(
-            Assumption(f"{member.name} held at its {face}", "Shaft and bearings count as rigid.")
-        )
+        face = support(member, held).faces(member)[0].replace("_", " ")
+        on_shaft = Assumption(f"{member.name} held at its {face}", "That face keeps its form.")
+        if rigid or member.bearing_stiffness is None:
+            on_shaft = replace(on_shaft, reason="Shaft and bearings count as rigid.")
+        values.append(on_shaft)
         if member.bore is None or member.mounting_distance is None:
             values.append(
                 Assumption(

@@ -7,19 +7,16 @@ for the cuts, g0 + g1 conj(z) for what hats do to them.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from scipy import sparse
-from scipy.sparse.linalg import splu
 from scipy.spatial import KDTree
 
+from ._layers import Progress, through
+
 Array = np.ndarray[Any, Any]
-Progress = Callable[[str, int, int], None]
-COLUMNS = 48  # right-hand sides solved together
 MATCH = 1e-6  # mm: nodes of both cut faces stand on each other
 
 
@@ -40,12 +37,14 @@ def condense(
     seen: Any,
     cuts: tuple[Array, Array],
     held: Array,
+    place: Array,
     pitch: float,
     progress: Progress = lambda *_: None,
 ) -> Superelement:
     """Condense a tooth's stiffness (3n, 3n) to hats `load` (3n, h), with `seen` (r, 3n) of displacements.
 
     `cuts` are nodes below and above, the second the first turned by `pitch` (rad); nodes `held` do not move.
+    `place` (n,) tells where nodes stand along the face, see `node_places`.
     """
     n = stiffness.shape[0] // 3
     low, high = (nodes[~np.isin(nodes, held)] for nodes in cuts)
@@ -55,47 +54,19 @@ def condense(
     cut = np.concatenate(dofs)
     fixed = (3 * held[:, None] + np.arange(3)).ravel()
     inner = np.setdiff1d(np.arange(3 * n), np.concatenate([cut, fixed]))
-    factor = factorised(stiff[inner][:, inner])
-    to_cut = stiff[inner][:, cut].tocsc()
-    own = load[inner]
+    to_cut = stiff[inner][:, cut]
     sight = (seen @ turn).tocsr()
-    inner_sight = sight[:, inner]
-    columns = sparse.hstack([own, to_cut]).tocsc()
-    back = sparse.vstack([own.T, to_cut.T, inner_sight]).tocsr()
-    solved = _through(factor, columns, back, progress)
-    h, c = own.shape[1], len(cut)
+    columns = sparse.hstack([load.tocsr()[inner], to_cut]).tocsr()
+    whole = stiff[inner][:, inner]
+    solved, glance = through(whole, place[inner // 3], columns, sight[:, inner].T, progress)
+    h = load.shape[1]
     return Superelement(
-        cut=_even(stiff[cut][:, cut].toarray() - solved[h : h + c, h:]),
-        hat_to_cut=-solved[h : h + c, :h],
+        cut=_even(stiff[cut][:, cut].toarray() - solved[h:, h:]),
+        hat_to_cut=-solved[h:, :h],
         hat=_even(solved[:h, :h]),
-        seen=solved[h + c :, :h],
-        seen_of_cut=sight[:, cut].toarray() - solved[h + c :, h:],
+        seen=glance[:, :h],
+        seen_of_cut=sight[:, cut].toarray() - glance[:, h:],
     )
-
-
-def factorised(matrix: Any) -> Any:
-    """A symmetric positive definite sparse matrix, ready to solve with."""
-    return splu(
-        matrix.tocsc(),
-        permc_spec="MMD_AT_PLUS_A",
-        diag_pivot_thresh=0.0,
-        options={"SymmetricMode": True},
-    )
-
-
-def _through(factor: Any, columns: Any, back: Any, progress: Progress) -> Array:
-    """`back` K^-1 `columns`, block by block on all cores: SuperLU lets go of the interpreter."""
-    starts = range(0, columns.shape[1], COLUMNS)
-
-    def part(start: int) -> Array:
-        return np.asarray(back @ factor.solve(columns[:, start : start + COLUMNS].toarray()))
-
-    done: list[Array] = []
-    with ThreadPoolExecutor(2) as pool:
-        for block in pool.map(part, starts):
-            done.append(block)
-            progress("compliance", len(done), len(starts))
-    return np.concatenate(done, axis=1)
 
 
 def _turned(n: int, nodes: Array, angle: float) -> Any:

@@ -28,6 +28,10 @@ class Member:
     stock_turn: float = 0.0
     bore: float | None = None  # radius, mm, where the design gives it
     mounting_distance: float | None = None  # mm, crossing point to back face
+    tip_rounding: float = 0.0  # mm, radius between flank and top land
+    held: Literal["bore", "back"] | None = None  # face that does not move on its shaft
+    # (6, 6) N/mm, N, N mm/rad of shaft and bearings, see `hypoid.design.bearing_compliance`; None: rigid
+    bearing_stiffness: tuple[tuple[float, ...], ...] | None = None
 
     @cached_property
     def tooth(self) -> Tooth:

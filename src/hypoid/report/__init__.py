@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from ._figures_load import loaded_contact_figure as loaded_contact_figure
     from ._figures_load import root_stress_figure as root_stress_figure
     from ._figures_tooth import tooth_figure as tooth_figure
+    from ._loaded import Loaded as Loaded
     from ._report import ReportSummary as ReportSummary
     from ._report import report_html as report_html
     from ._report import write_report as write_report
@@ -26,6 +27,7 @@ _LAZY = {
     **dict.fromkeys(("ReportSummary", "report_html", "write_report"), "_report"),
     **dict.fromkeys(("look", "to_png", "to_svg"), "_style"),
     **dict.fromkeys(("loaded_contact_figure", "root_stress_figure"), "_figures_load"),
+    "Loaded": "_loaded",
     "tooth_figure": "_figures_tooth",
     "correction_image": "_figures_inspect",
     "topography_image": "_figures_inspect",

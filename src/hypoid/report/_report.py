@@ -25,6 +25,7 @@ from ._figures_contact import (
 from ._figures_cutter import cutter_figure
 from ._figures_mill import blades_figure
 from ._figures_tooth import tooth_figure, tooth_notes, tooth_rows
+from ._loaded import Loaded, loaded_section
 from ._page import box, drawing, note, page
 from ._progress import Progress, silent
 from ._results import STEPS_A_DIRECTION, Results, results
@@ -51,9 +52,11 @@ class ReportSummary:
     faults: tuple[str, ...]
 
 
-def write_report(pair: GearPair, path: str | Path, progress: Progress = silent) -> ReportSummary:
-    """Write the report of a pair to one HTML file: whole, or not at all."""
-    text, summary = report_html(pair, progress)
+def write_report(
+    pair: GearPair, path: str | Path, progress: Progress = silent, loaded: Loaded | None = None
+) -> ReportSummary:
+    """Write the report of a pair, `loaded` or not, to one HTML file: whole, or not at all."""
+    text, summary = report_html(pair, progress, loaded)
     path = Path(path)
     handle, name = tempfile.mkstemp(dir=path.parent, prefix=path.name, suffix=".part")
     try:
@@ -67,7 +70,9 @@ def write_report(pair: GearPair, path: str | Path, progress: Progress = silent) 
     return summary
 
 
-def report_html(pair: GearPair, progress: Progress = silent) -> tuple[str, ReportSummary]:
+def report_html(
+    pair: GearPair, progress: Progress = silent, loaded: Loaded | None = None
+) -> tuple[str, ReportSummary]:
     """The report as HTML text, and what it found wrong."""
     done = 0
 
@@ -79,17 +84,19 @@ def report_html(pair: GearPair, progress: Progress = silent) -> tuple[str, Repor
     found = results(pair, step)
     step("figures")
     with look():
-        sections = _sections(found)
+        sections = _sections(found, loaded)
         step("3D view")
         sections.append(("In mesh", _in_mesh(found)))
     progress("done", STEPS, STEPS)
-    return page(pair.title, pair.source, sections), ReportSummary(found.faults)
+    return page(pair.title, pair.source, sections), ReportSummary(
+        found.faults + (loaded.faults if loaded else ())
+    )
 
 
-def _sections(found: Results) -> list[tuple[str, str]]:
+def _sections(found: Results, loaded: Loaded | None) -> list[tuple[str, str]]:
     pair = found.pair
     shown: list[tuple[str, str]] = [
-        ("What was found", _findings(found)),
+        ("What was found", _findings(found, loaded.faults if loaded else ())),
         (
             "Blank",
             drawing(to_svg(blank_figure(pair)), "Axial sections to scale; chain-dotted: pitch cones.")
@@ -121,6 +128,8 @@ def _sections(found: Results) -> list[tuple[str, str]]:
             drawing(to_svg(ease_off_figure(found)), "Pinion against the wheel's conjugate, along the normal; positive where material is missing. Blank where the conjugate leaves the wheel's active flank."),
         ),
     ]  # fmt: skip
+    if loaded is not None:
+        shown.append(("Under load", loaded_section(loaded)))
     for result in found.both:
         shown.append((
             f"Misalignment {result.direction}",
@@ -155,7 +164,7 @@ def _cutter(pair: GearPair) -> str:
     return drawing(to_svg(blades_figure(pair)), words)
 
 
-def _findings(found: Results) -> str:
+def _findings(found: Results, under_load: tuple[str, ...]) -> str:
     lines: list[str] = []
     for result in found.both:
         contact = result.contact
@@ -167,8 +176,8 @@ def _findings(found: Results) -> str:
             f"peak to peak, rigid contact ratio {contact.contact_ratio:.3f}, {edge}."
         )
     parts = [box("Contact", lines, bad=False)]
-    if found.faults:
-        parts.append(box("Faults", list(found.faults), bad=True))
+    if faults := [*found.faults, *under_load]:
+        parts.append(box("Faults", faults, bad=True))
     if found.pair.assumed:
         given = [f"{a.value}: {a.reason}" for a in found.pair.assumed]
         parts.append(box("Assumed, not given by the source", given, bad=False))

@@ -1,0 +1,116 @@
+"""Compliance of the cells of all pairs: half-space in each pair, teeth and bodies between all."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from ._bearings import RIGID, Bearings, wrenches
+from ._compliance import ToothCompliance
+from ._hats import IMAGE
+from ._love import mirrored_grid, regular_grid
+from ._patch import Patch
+
+Array = np.ndarray[Any, Any]
+
+
+@dataclass(frozen=True)
+class Teeth:
+    """Compliance of both members, and what half-spaces of both give together."""
+
+    pinion: ToothCompliance
+    wheel: ToothCompliance
+    sense: int  # teeth of pair k stand k times this many teeth on, by rising left-hand angle
+    bearings: Bearings = RIGID
+
+    @property
+    def plane_modulus(self) -> float:
+        """E* of both, MPa."""
+        moduli = (self.pinion.made_of.plane_modulus, self.wheel.made_of.plane_modulus)
+        return 1.0 / sum(1.0 / e for e in moduli)
+
+
+@dataclass(frozen=True, eq=False)
+class Cells:
+    """A patch whose cells know what they do to each other, and to the hats."""
+
+    patch: Patch
+    teeth: Teeth
+
+    @cached_property
+    def weights(self) -> tuple[Any, Any]:
+        """Weights (n, hats), sparse, of pinion's and wheel's hats."""
+        places = (self.patch.pinion_place, self.patch.wheel_place)
+        members = (self.teeth.pinion, self.teeth.wheel)
+        return tuple(m.hats.weights(*at) for m, at in zip(members, places, strict=True))  # pyright: ignore
+
+    @cached_property
+    def half_space(self) -> Array:
+        """Displacement (n, n), mm/N, of half-spaces with each cell's images beyond both tips."""
+        p = self.patch
+        on = p.on.ravel()
+        cells = regular_grid(*p.on.shape, *p.size)[np.ix_(on, on)] / self.teeth.plane_modulus
+        for member, tip in zip((self.teeth.pinion, self.teeth.wheel), p.tips, strict=True):
+            image = mirrored_grid(p.plane[:, 0], p.plane[:, 1], tip, *p.size)
+            cells += IMAGE / member.made_of.plane_modulus * image
+        cells *= 1.0 / (np.pi * p.size[0] * p.size[1])
+        return cells
+
+    @cached_property
+    def wrenches(self) -> tuple[Array, Array]:
+        """Wrenches (n, 6) on pinion and wheel of each cell's unit force."""
+        contact = self.patch.meeting.contact
+        mirrored = contact.pinion_flank.mirrored
+        return wrenches(contact.mount, mirrored, self.patch.point, self.patch.normal)
+
+    def by(self, other: Cells) -> Array:
+        """Displacement (n, m), mm/N, of this pair's cells by forces on the other's."""
+        here, there = self.patch.meeting.pair, other.patch.meeting.pair
+        total = np.zeros((0, 0))
+        members = (self.teeth.pinion, self.teeth.wheel)
+        for member, mine, others in zip(members, self.weights, other.weights, strict=True):
+            own = mine @ (others @ _between(member, here, there, self.teeth.sense).T).T
+            total = total + own if total.size else own
+        bearings = self.teeth.bearings
+        if not bearings.rigid:
+            for held, mine, others in zip(
+                (bearings.pinion, bearings.wheel), self.wrenches, other.wrenches, strict=True
+            ):
+                total += (mine @ held) @ others.T
+        if here == there:
+            total += self.half_space
+        return total
+
+
+def compliance(cells: Sequence[Cells], known: dict[tuple[int, int], Array] | None = None) -> Array:
+    """Compliance (n, n), mm/N, of all cells; blocks that `known` has, by the cells' ids, are not computed again."""
+    blocks = {} if known is None else known
+    total = np.zeros((sum(c.patch.count for c in cells),) * 2)
+    ends = parts([c.patch for c in cells])
+    for i, one in enumerate(cells):
+        for j, other in enumerate(cells[: i + 1]):
+            key = id(one), id(other)
+            if key not in blocks:
+                blocks[key] = one.by(other)
+            total[ends[i], ends[j]] = blocks[key]
+            if i != j:
+                total[ends[j], ends[i]] = blocks[key].T
+    return total
+
+
+def parts(patches: Sequence[Patch]) -> tuple[slice, ...]:
+    """Which cells, counted through all patches, are each one's."""
+    ends = np.cumsum([0, *(p.count for p in patches)])
+    return tuple(slice(a, b) for a, b in pairwise(ends.tolist()))
+
+
+def _between(member: ToothCompliance, k: int, other: int, sense: int) -> Array:
+    """Displacement on pair k's tooth by hats on the other pair's; the half-space is left to a pair's own cells."""
+    if k == other:
+        return member.difference(0)
+    return member.elastic[sense * (k - other) % member.teeth]
