@@ -20,10 +20,7 @@ from ._hex_files import listed, numbered
 from ._write import write_text
 
 Array = np.ndarray[Any, Any]
-STIFFNESS = 1e7  # N/mm3, pressure per overlap: see `contact_lines`
-CLOSING = 0.9  # of the expected rotation: how far the first step turns the pinion
-LOOSE = 10.0  # residual and correction at which the first step, which only closes gaps, is left
-NUMBER = r"[-+0-9.E]+|NaN|\*+"
+STIFFNESS = 1e7  # N/mm3, pressure per overlap: see `_contact`
 
 
 def write_contact(model: ContactModel, path: str | Path) -> Path:
@@ -107,17 +104,14 @@ def _steps(model: ContactModel) -> Iterator[str]:
     yield "*STEP, INC=100"
     yield "*STATIC"
     yield "1., 1., 1.e-3"
-    yield "*CONTROLS, PARAMETERS=FIELD"
-    yield f"{LOOSE}, {LOOSE}"
     yield "*BOUNDARY"
-    yield f"{rotation}, 3, 3, {model.turn * CLOSING * model.guess:.10g}"
+    yield f"{rotation}, 3, 3, {model.turn * model.guess:.10g}"
     yield "*NODE FILE, FREQUENCY=0"
     yield "U"
     yield "*END STEP"
     yield "*STEP, INC=100"
     yield "*STATIC"
     yield "1., 1., 1.e-3"
-    yield "*CONTROLS, RESET"
     yield "*BOUNDARY, OP=NEW"
     yield from fixed
     yield "*CLOAD"

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -21,12 +20,12 @@ from hypoid.pair import Direction, GearPair, Member
 from hypoid.solid import HexMesh, hex_mesh
 
 from ._bricks import stiffness
-from ._compliance import Elements, Support, tooth_compliance
+from ._compliance import Elements, Support, ToothCompliance
 from ._hats import Hats, _knots, shapes
 from ._material import STEEL, Material
 from ._patch import meeting
 from ._position import Teeth, position_contact
-from ._setup import MESHES
+from ._setup import MESHES, pair_compliance
 from ._superelement import Progress
 
 Array = np.ndarray[Any, Any]
@@ -64,9 +63,8 @@ class ContactModel:
     ]  # nodes of the pinion's hub, which turns as a rigid body, and of the wheel's
     turn: int  # +1 or -1: the sense about z in which the torque turns the pinion
     guess: float  # rad: about how far it turns
-    surface_error: tuple[
-        float, float
-    ]  # mm: pinion's and wheel's faces off their exact flanks, at most
+    elements: tuple[Elements, Elements]  # as they came out
+    surface_error: tuple[float, float]  # mm, most by which faces stand off the exact flanks
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,20 +116,23 @@ def contact_model(
     elements: Elements | None = None,
     supports: tuple[Support, Support] | None = None,
     misalignment: Misalignment | None = None,
+    compliance: tuple[ToothCompliance, ToothCompliance] | None = None,
     progress: Progress = lambda *_: None,
-    cache: Path | None = None,
 ) -> ContactModel:
     """A sector of `teeth` of both members at a pinion angle (rad, within a pitch of zero) under a torque, N mm.
 
-    Without `teeth` one more either way than the pairs in contact, as a coarse `loaded_contact` finds them. `elements`
-    (the coarse ones by default) count as everywhere, but where the faces would stand off the exact flank by more than
-    a micrometre there are more along the face. Raises DesignError, with the number needed where `teeth` are too few.
+    Without `teeth` one more either way than the pairs in contact, as `loaded_contact` finds them with `compliance`
+    (coarse where not given). A member of which more than half would be asked for is taken whole: free cuts beside a
+    loaded tooth give way. `elements` (the coarse ones by default) count as everywhere, but where the faces would stand
+    off the exact flank by more than a micrometre there are more along the face. Raises DesignError, with the number
+    needed where `teeth` are too few.
     """
     _check(pair, torque, position, teeth)
     unloaded = unloaded_contact(
         pair, direction, misalignment, Sampling(positions_per_pitch=PER_PITCH, pairs=PAIRS)
     )
-    guess, first, last = _expected(unloaded, torque, position, made_of, progress, cache)
+    known = compliance or pair_compliance(pair, direction, made_of, MESHES["coarse"], progress)
+    guess, first, last = _expected(unloaded, torque, position, known)
     needed = last - first + 1
     count = needed + 2 * BESIDE if teeth is None else teeth
     most = pair.wheel.teeth
@@ -141,13 +142,14 @@ def contact_model(
     sense = round(float(unloaded.mount.sense))
     sizes = elements or MESHES["coarse"]
     flanks = pair.mates(direction)
-    made: list[tuple[HexMesh, float]] = []
+    made: list[tuple[HexMesh, Elements, float]] = []
     for member, flank in zip((pair.pinion, pair.wheel), flanks, strict=True):
-        made.append(_mesh(member, flank.side, min(count, member.teeth), sizes))
-    (pinion, pinion_error), (wheel, wheel_error) = made
+        whole = 2 * count > member.teeth
+        made.append(_mesh(member, flank.side, member.teeth if whole else count, sizes))
+    pinion, wheel = (mesh for mesh, _, _ in made)
     hands = tuple(round(float(np.asarray(flank.hand)[1])) for flank in flanks)
     centre = [
-        _centre(mesh, h * sense, first, last) for (mesh, _), h in zip(made, hands, strict=True)
+        _centre(mesh, h * sense, first, last) for (mesh, _, _), h in zip(made, hands, strict=True)
     ]
     pinion = replace(
         pinion, nodes=_turned(pinion.nodes, hands[0] * sense * centre[0] * pinion.pitch)
@@ -177,7 +179,8 @@ def contact_model(
         held=(held[0], held[1]),
         turn=-sense * hands[0],  # drive turns a left-hand pinion backwards, see `Mounting`
         guess=guess,
-        surface_error=(pinion_error, wheel_error),
+        elements=(made[0][1], made[1][1]),
+        surface_error=(made[0][2], made[1][2]),
     )
 
 
@@ -262,20 +265,10 @@ def _expected(
     unloaded: UnloadedContact,
     torque: float,
     position: float,
-    made_of: Material,
-    progress: Progress,
-    cache: Path | None,
+    compliance: tuple[ToothCompliance, ToothCompliance],
 ) -> tuple[float, int, int]:
-    """Rotation and first and last pair in contact, as a coarse loaded contact at the nearest position has them."""
-    pair = unloaded.pair
-    members = zip((pair.pinion, pair.wheel), pair.mates(unloaded.direction), strict=True)
-    pinion, wheel = (
-        tooth_compliance(
-            member, flank.side, made_of, MESHES["coarse"], progress=progress, cache=cache
-        )
-        for member, flank in members
-    )
-    teeth = Teeth(pinion, wheel, round(float(unloaded.mount.sense)))
+    """Rotation and first and last pair in contact, as a loaded contact at the nearest position has them."""
+    teeth = Teeth(*compliance, round(float(unloaded.mount.sense)))
     at = int(np.abs(unloaded.phi - position).argmin())
     half = PAIRS // 2
     meetings = [m for k in range(-half, half + 1) if (m := meeting(unloaded, at, k)) is not None]
@@ -291,7 +284,9 @@ def _expected(
     return found.solution.rotation, min(loaded), max(loaded)
 
 
-def _mesh(member: Member, side: Side, teeth: int, sizes: Elements) -> tuple[HexMesh, float]:
+def _mesh(
+    member: Member, side: Side, teeth: int, sizes: Elements
+) -> tuple[HexMesh, Elements, float]:
     """Teeth whose faces stand off the exact flank by no more than `SURFACE`, and by how much they do, mm."""
     along = sizes.along
     while True:
@@ -305,7 +300,7 @@ def _mesh(member: Member, side: Side, teeth: int, sizes: Elements) -> tuple[HexM
         along = min(max(more, along + 1), MOST * sizes.along)
     if teeth > 1:
         one = hex_mesh(member, teeth=teeth, quadratic=True, **counts)  # pyright: ignore[reportArgumentType]
-    return one, error
+    return one, replace(sizes, along=along), error
 
 
 def _surface_error(mesh: HexMesh, member: Member, side: Side) -> float:
