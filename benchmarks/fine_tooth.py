@@ -272,7 +272,7 @@ def reference(met: Meeting, tooth: Tooth, made: Block, inside: Array) -> Referen
     found = load[free].T @ moved + load[edge].T @ around.reshape(len(edge), -1)
     uneven = float(np.abs(found - found.T).max() / np.abs(found).max())
     # gaps and levers, on rays through the same points
-    mount, plane = met.contact.mount, []
+    plane = []
     for k in range(2):
         plane.append(
             np.einsum("fc,qc->fq", np.stack([made.a, made.b])[k][made.number], phi).ravel()
@@ -289,7 +289,6 @@ def reference(met: Meeting, tooth: Tooth, made: Block, inside: Array) -> Referen
             np.einsum("fq,qc,fq->fc", size, phi, values.reshape(size.shape)).ravel(),
         )
         means.append((total / area)[inside])
-    del mount
     return Reference(
         0.5 * (found + found.T), *means, area[inside], made.a[inside], made.b[inside], uneven
     )

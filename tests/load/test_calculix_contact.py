@@ -18,8 +18,10 @@ from hypoid.load import (
     ContactAnswer,
     ContactModel,
     Elements,
+    PairLoad,
     ToothCompliance,
     contact_model,
+    hat_widths,
     loaded_contact,
     tooth_compliance,
 )
