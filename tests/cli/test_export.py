@@ -265,3 +265,41 @@ def test_names_that_no_file_can_have_are_refused(export: Any, tmp_path: Path) ->
     assert (status, out) == (2, "")
     assert "Traceback" not in err
     assert not list(tmp_path.iterdir())
+
+
+def test_contact_model_that_cannot_be_is_told_all_at_once(export: Any, tmp_path: Path) -> None:
+    target = str(tmp_path / "contact.txt")
+    words = ("--calculix", target, "--member", "wheel", "--torque=-110 N m", "--position", "12 mm")
+    status, _, err = export(EXAMPLE, *words, "--poissons-ratio", "0.5")
+    assert status == 2
+    told = ("ends in .inp", "--direction coast", "pinion and wheel", "--position", "less than 0.5")
+    for words in told:
+        assert words in err
+    status, _, err = export(EXAMPLE, "--calculix", str(tmp_path / "contact.inp"))
+    assert status == 2
+    assert "--torque" in err
+    status, _, err = export(EXAMPLE, "--torque", "5 N m", "--stl", str(tmp_path / "a.stl"))
+    assert status == 2
+    assert "--calculix contact.inp" in err
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.slow
+def test_contact_model_of_a_sector(export: Any, tmp_path: Path) -> None:
+    relief = str(FILES["gonzalez-fuentes-2022-relief"])
+    path = tmp_path / "contact.inp"
+    words = ("--calculix", str(path), "--torque", "30 N m", "--position", "12 deg", "--json")
+    status, _, err = export(relief, *words, "--teeth", "2")
+    assert status == 2
+    assert "at least" in err
+    assert "bear load" in err
+    assert not list(tmp_path.iterdir())
+    status, out, _ = export(relief, *words)
+    assert status == 0
+    (known,) = json.loads(out)["files"]
+    assert (known["teeth_pinion"], known["torque_Nm"]) == (6, 30.0)
+    assert known["teeth_wheel"] >= 5
+    assert known["surface_error_um"] < 1.0
+    text = path.read_text()
+    assert text.count("*CONTACT PAIR") == len(known["pairs"])
+    assert text.count("*END STEP") == 2

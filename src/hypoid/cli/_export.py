@@ -14,6 +14,7 @@ from cyclopts import Parameter
 
 from hypoid.geometry import DesignError, Problem
 
+from ._export_contact import Direction, Mesh, contact_request, write_model
 from ._export_files import ENDINGS, Request, files_of, for_people, target, write_files
 from ._options import AsJson, DesignPath, quantities
 from ._output import report_faults, write_json, write_members
@@ -41,6 +42,13 @@ def export(
     teeth: Annotated[str | None, Signed] = None,
     chord_error: Annotated[str, Signed] = "5 um",
     bore: Annotated[str | None, Signed] = None,
+    calculix: Path | None = None,
+    torque: Annotated[str | None, Signed] = None,
+    direction: Direction = "drive",
+    position: Annotated[str, Signed] = "0 deg",
+    mesh: Mesh = "coarse",
+    youngs_modulus: str = "206 GPa",
+    poissons_ratio: float = 0.3,
     json: AsJson = False,
 ) -> int:
     """Teeth with their body as files for CAD, printing, viewing and analysis, one or more a call.
@@ -72,27 +80,62 @@ def export(
     chord_error
         How far triangles may stand off the exact surfaces: "5 um".
     bore
-        Diameter of the bore: "40 mm".
+        Diameter of the bore: "40 mm"; not for a contact model, whose bodies are the design's.
+    calculix
+        Contact of both members under a torque, input of CalculiX; with as many teeth as it needs, or --teeth.
+    torque
+        Of a contact model, on the pinion: "110 N m"; the options below are of a contact model, too.
+    direction
+        The flanks that carry: drive is pinion concave on wheel convex.
+    position
+        Pinion angle: "12 deg".
+    mesh
+        How fine its elements are.
+    youngs_modulus
+        Of both members.
+    poissons_ratio
+        Of both members.
     """
     given = {"stl": stl, "ply": ply, "obj": obj, "glb": glb, "step": step}
-    given |= {"inp": inp, "vtu": vtu, "points": points}
+    given |= {"inp": inp, "vtu": vtu, "points": points, "calculix": calculix}
     wanted = {kind: path for kind, path in given.items() if path is not None}
     names = ("pinion", "wheel") if member == "both" else (member,)
     problems = _path_problems(wanted, names)
     count = _teeth(teeth, problems)
     chords, diameter = _lengths(chord_error, bore, problems)
+    asked = None
+    if calculix is not None:
+        material = youngs_modulus, poissons_ratio
+        if bore is not None:
+            expected = "none: bodies of a contact model are the design's"
+            problems.append(Problem("--bore", f'"{bore}"', expected, 'bore_diameter = "40 mm"'))
+        asked = contact_request(torque, direction, position, *material, mesh, member, problems)
+    elif torque is not None:
+        problems.append(
+            Problem(
+                "--torque", f'"{torque}"', "a contact model to go with it", "--calculix contact.inp"
+            )
+        )
     pair = _pair(file, problems)
     members = [] if pair is None else [getattr(pair, name) for name in names]
     if pair is not None:
-        problems += _request_problems(members, count, chords, diameter)
+        sectors = [pair.wheel] if wanted.keys() == {"calculix"} else members
+        problems += _request_problems(sectors, count, chords, diameter)
     if problems or pair is None:
         raise DesignError(problems)
     request = Request(count, chords, None if diameter is None else 0.5 * diameter)
     results: list[dict[str, Any]] = []
     faults = list(pair.faults)
     with staged(path.parent for path in wanted.values()) as place:
+        if asked is not None and calculix is not None:
+            sector = request.of_triangles if request.teeth != "all" else pair.wheel.teeth
+            results.append(write_model(pair, asked, sector, place(calculix)))
         for name in names:
-            targets = {kind: place(target(path, name, names)) for kind, path in wanted.items()}
+            targets = {
+                kind: place(target(path, name, names))
+                for kind, path in wanted.items()
+                if kind != "calculix"
+            }
             found, wrong = write_files(getattr(pair, name), targets, request)
             results += found
             faults += wrong

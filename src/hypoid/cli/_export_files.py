@@ -17,6 +17,7 @@ Result = dict[str, Any]
 ENDINGS = {
     "stl": (".stl",), "ply": (".ply",), "obj": (".obj",), "glb": (".glb",),
     "step": (".step", ".stp"), "inp": (".inp",), "vtu": (".vtu",), "points": (".csv",),
+    "calculix": (".inp",),
 }  # fmt: skip
 SURFACES = ("stl", "ply", "obj", "glb")
 UM = 1e3
@@ -137,6 +138,7 @@ def _hexahedra(mesh: HexMesh) -> Result:
 def for_people(results: Sequence[Result]) -> dict[str, dict[str, Result]]:
     """Results by kind of file, to be shown as a table each: file by file what is known of it."""
     titles = {**dict.fromkeys(SURFACES, "Surfaces"), "step": "STEP", "points": "Points"}
+    titles["calculix"] = "Contact model"
     shown: dict[str, dict[str, Result]] = {}
     for result in results:
         columns = shown.setdefault(titles.get(result["format"], "Hexahedra"), {})

@@ -17,6 +17,9 @@ from ._write import write_bytes as write_bytes
 from ._write import write_text as write_text
 
 if TYPE_CHECKING:
+    from ._calculix import contact_text as contact_text
+    from ._calculix import read_contact as read_contact
+    from ._calculix import write_contact as write_contact
     from ._design_written import design_text as design_text
     from ._grid import FlankGrid as FlankGrid
     from ._grid import grid_csv as grid_csv
@@ -38,6 +41,9 @@ if TYPE_CHECKING:
     from ._step import write_step as write_step
 
 _LAZY = {
+    "contact_text": "_calculix",
+    "read_contact": "_calculix",
+    "write_contact": "_calculix",
     "design_text": "_design_written",
     "FlankGrid": "_grid",
     "grid_csv": "_grid",

@@ -42,25 +42,25 @@ def _inp_lines(mesh: HexMesh) -> Iterator[str]:
     for tooth in range(mesh.teeth):
         yield f"*ELEMENT, TYPE={TYPES[mesh.elements.shape[1]][0]}, ELSET=tooth_{tooth + 1}"
         own = np.flatnonzero(mesh.tooth == tooth)
-        yield from _numbered(np.column_stack([own, mesh.elements[own]]) + 1)
+        yield from numbered(np.column_stack([own, mesh.elements[own]]) + 1)
     yield "*ELSET, ELSET=all_elements"
     yield from (f"tooth_{tooth + 1}" for tooth in range(mesh.teeth))
     for name, nodes in mesh.node_sets.items():
         yield f"*NSET, NSET={name}"
-        yield from _listed(nodes + 1)
+        yield from listed(nodes + 1)
     for name, faces in mesh.face_sets.items():
         yield f"*SURFACE, NAME={name}, TYPE=ELEMENT"
         yield from map("%d, S%d".__mod__, map(tuple, (faces + 1).tolist()))
 
 
-def _numbered(rows: Array) -> Iterable[str]:
+def numbered(rows: Array) -> Iterable[str]:
     """Rows of numbers, each on as few lines as may be."""
     parts = np.split(rows, range(ON_LINE, rows.shape[1], ON_LINE), axis=1)
     form = ",\n".join(", ".join(["%d"] * part.shape[1]) for part in parts)
     return map(form.__mod__, map(tuple, rows.tolist()))
 
 
-def _listed(numbers: Array) -> Iterator[str]:
+def listed(numbers: Array) -> Iterator[str]:
     for start in range(0, len(numbers), ON_LINE):
         yield ", ".join(map(str, numbers[start : start + ON_LINE].tolist()))
 

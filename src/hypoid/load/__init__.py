@@ -10,6 +10,12 @@ from ._compliance import Elements as Elements
 from ._compliance import Support as Support
 from ._compliance import ToothCompliance as ToothCompliance
 from ._compliance import tooth_compliance as tooth_compliance
+from ._contact_model import ContactAnswer as ContactAnswer
+from ._contact_model import ContactModel as ContactModel
+from ._contact_model import PairAnswer as PairAnswer
+from ._contact_model import contact_answer as contact_answer
+from ._contact_model import contact_model as contact_model
+from ._contact_model import hat_widths as hat_widths
 from ._loaded import LoadCase as LoadCase
 from ._loaded import LoadedContact as LoadedContact
 from ._loaded import LoadedPosition as LoadedPosition
