@@ -31,7 +31,7 @@ from hypoid.design import (
 from hypoid.geometry import DesignError
 
 SEED = 23509
-LEAST_SPIRAL = 22.0  # deg, of the wheel: below, the charts of generated face-milled flanks fold
+ZEROL = 0.08  # share of spiral angles that are zero
 LOOK = Sampling(positions_per_pitch=12, pairs=3, columns=31, rows=15, every_edge=False)
 PINIONS = ("tilt", "modified-roll", "generated", "helical", "universal")
 COLUMNS = (
@@ -80,7 +80,7 @@ def draw(number: int, random: np.random.Generator) -> Draw:
         offset = share * 0.5 * de2
         mean = 0.5 * (de2 - face * sin(delta2))
         turn = asin(min(offset / mean, 0.9))
-        spiral = radians(random.uniform(LEAST_SPIRAL, 38.0 if share else 45.0))
+        spiral = radians(random.uniform(0.0, 45.0)) if random.random() > ZEROL else 0.0
         if degrees(spiral + turn) > 60.0:
             continue
         hobbed = bool(random.random() < 0.2)
@@ -163,13 +163,12 @@ def outcome(one: Draw) -> tuple[str, float, float]:
 
 def main(count: int, target: Path) -> None:
     """Design so many blanks and write the table."""
-    random = np.random.default_rng(SEED)
     sound = 0
     with target.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file)
         table.writerow(COLUMNS)
         for number in range(1, count + 1):
-            one = draw(number, random)
+            one = draw(number, np.random.default_rng([SEED, number]))
             start = time.perf_counter()
             words, residual, tolerance = outcome(one)
             sound += words.startswith("sound")

@@ -175,5 +175,5 @@ def _root(
     return turn, height, jnp.abs(left), *(slope / up for slope in slopes)
 
 
-flank_at = Batched(_flank, parameters=5, block=256)
-root_at = Batched(_root, parameters=4, block=16)
+flank_at = Batched(_flank, parameters=5, block=32, most=96)
+root_at = Batched(_root, parameters=4, block=16, most=16)
