@@ -42,6 +42,18 @@ class Entry:
     limit: float  # greatest change in one step; its scale, too
     low: float = -np.inf
     high: float = np.inf
+    reads: tuple[Mapping[str, float], ...] | None = (
+        None  # its value from the vectors, if not as moved
+    )
+
+    def value(self, vectors: Sequence[Array], index: Mapping[str, int]) -> float:
+        """The unknown as flanks' vectors have it: the mean where those that share it differ."""
+        if self.reads is not None:
+            reads, size = self.reads, 1.0
+        else:
+            reads, size = self.moves, sum(v * v for move in self.moves for v in move.values())
+        parts = zip(reads, vectors, strict=True)
+        return sum(share * v[index[k]] for read, v in parts for k, share in read.items()) / size
 
 
 @dataclass(frozen=True)
@@ -92,18 +104,19 @@ class Unknowns:
         self, entries: Sequence[Entry], vectors: Sequence[Array], index: Mapping[str, int]
     ) -> None:
         self.entries = tuple(entries)
+        self.start = np.array([entry.value(vectors, index) for entry in entries])
         self.matrices: list[Array] = []
+        self._bases: list[Array] = []
+        plain = np.array([entry.reads is None for entry in entries], dtype=bool)
         for n, vector in enumerate(vectors):
             matrix = np.zeros((len(vector), len(entries)))
             for k, entry in enumerate(entries):
                 for key, share in entry.moves[n].items():
                     matrix[index[key], k] = share
             self.matrices.append(matrix)
-        # unknowns as the vectors have them: the mean where flanks that share one differ
-        stacked = np.concatenate(self.matrices)
-        self.start = np.linalg.lstsq(stacked, np.concatenate(vectors), rcond=None)[0]
-        touched = [m.any(axis=1) for m in self.matrices]
-        self._bases = [np.where(t, 0.0, v) for t, v in zip(touched, vectors, strict=True)]
+            # what only unknowns make up is theirs alone, so that flanks share what they should
+            made = matrix[:, plain].any(axis=1) & ~matrix[:, ~plain].any(axis=1)
+            self._bases.append(np.where(made, 0.0, vector - matrix @ self.start))
 
     def vectors(self, x: Array) -> tuple[Array, ...]:
         """Each flank's vector."""
