@@ -38,9 +38,9 @@ if TYPE_CHECKING:
     from ._dialled import dialled as dialled
     from ._dialled import machine_named as machine_named
     from ._exact_face_hobbed import exact_settings as exact_settings
+    from ._flank_fit import FlankFit as FlankFit
     from ._milled_design import MilledDesign as MilledDesign
     from ._milled_design import design_milled as design_milled
-    from ._flank_fit import FlankFit as FlankFit
 
 _LAZY = {
     "axis_tables": "_dialled",

@@ -38,6 +38,9 @@ class FlankFit:
     residual: Array  # (n,) mm, ease-off less its target; NaN where nothing counts
     wanted: Array  # (n,) mm, the target ease-off
     ease_off: Array  # (n,) mm; NaN where nothing counts
+    least_edge: (
+        float  # mm along the blade from its tips, above which all of the active flank is cut
+    )
     root_error: Array  # (3,) mm, height of the root as cut less the blank's, toe to heel
     fit: Fit
     held: tuple[str, ...]  # unknowns that stand at a bound and want out, in words
@@ -92,6 +95,7 @@ def flank_fits(task: PinionTask, stage: Stage) -> dict[Side, FlankFit]:
             residual=residual,
             wanted=model.wanted - model.wanted[model.conjugate.middle],
             ease_off=ease_off,
+            least_edge=float(look.memory[0][model.there].min()),
             root_error=look.residual[count : count + 3] * ROOT_SPREAD,
             fit=joint.fit,
             held=held,

@@ -20,10 +20,10 @@ from hypoid.flank import SIDES, Side
 from hypoid.geometry import DesignError, Problem
 from hypoid.machine import MachineSettings, to_sheet
 
+from ._flank_fit import FlankFit
 from ._member_blanks import given_blank
 from ._milled_request import TOGETHER, MilledRequest
 from ._milled_wheel import EDGE, ROOM, MilledWheel, milled_wheel
-from ._flank_fit import FlankFit
 from ._pinion_fit import fit_pinion
 from ._pinion_task import pinion_task
 from ._sheet_spec import BladeSpec, FlankSpec, MemberSpec, Method, SummarySheetSpec
@@ -182,9 +182,9 @@ def _curve(fit: FlankFit) -> dict[str, Any]:
     return {"curve": "circular-arc", "curve_radius": 1.0 / fit.blade_curvature}
 
 
-def _arc(land: float, angle: float) -> float:
-    """Greatest edge radius that a blade's land holds, mm."""
-    return 0.98 * land * cos(angle) / (1.0 - sin(angle))
+def _arc(length: float, angle: float) -> float:
+    """Edge radius, mm, whose arc takes so much of a blade from its sharp corner, mm."""
+    return 0.98 * max(length, 0.0) * cos(angle) / (1.0 - sin(angle))
 
 
 def _pinion_edge(blank: PairBlank, wheel: MilledWheel, fits: Mapping[Side, FlankFit]) -> float:
@@ -193,6 +193,9 @@ def _pinion_edge(blank: PairBlank, wheel: MilledWheel, fits: Mapping[Side, Flank
     for fit in fits.values():
         room = ROOM * (blank.clearance or 0.0) - max(0.0, float(fit.root_error.max()))
         usual = min(usual, room / (1.0 - sin(fit.blade_angle)))
+        usual = min(
+            usual, _arc(fit.least_edge, fit.blade_angle)
+        )  # below all that the wheel touches
     return max(usual, 0.0)
 
 

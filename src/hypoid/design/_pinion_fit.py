@@ -7,8 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-import numpy as np
-
 from hypoid.flank import SIDES, Side
 
 from ._flank_fit import FlankFit, flank_fits
@@ -69,7 +67,9 @@ def _from_plain(task: PinionTask, sides: Sequence[Side]) -> Stage | None:
         start = plain_start(task.blank, task.request.blank.cutter_radius, side)
         found = task.conjugates[side]
         places = plain_places(found, task.blank, start, side)
-        model = pinion_model(side, found, task.blank, cone, start, places, task.target(side))
+        model = pinion_model(
+            side, found, task.blank, cone, start, places, task.target(side), task.least_edge
+        )
         if model is None or model.count < FEWEST:
             return None
         models.append(model)
@@ -89,7 +89,9 @@ def _from_conjugate(task: PinionTask, side: Side) -> Stage | None:
     start = conjugate_start(task.wheel, task.blank, side)
     places = conjugate_places(found, start)
     cone = pitch_cone(task.blank, "pinion")
-    model = pinion_model(side, found, task.blank, cone, start, places, task.target(side))
+    model = pinion_model(
+        side, found, task.blank, cone, start, places, task.target(side), task.least_edge
+    )
     if model is None or model.count < FEWEST:
         return None
     free = (*BASE, *HEAD)

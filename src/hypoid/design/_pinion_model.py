@@ -1,7 +1,8 @@
 """Residuals of one pinion flank against what is asked of it, with their exact Jacobian.
 
-Two kinds of rows: ease-off against its target (um), and the root that the blade's tips cut against the
-blank's root line.
+Three kinds of rows: ease-off against its target (um), the root that the blade's tips cut against the
+blank's root line, and what the blade lacks below its flank: where a place on the active flank would be cut by
+less edge than the tips' arc needs, or by none.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ LEFT = 1e-8  # mm that Newton may leave
 FOLDING = 0.1  # of the mean point's places per parameters: nearer to undercut, nothing counts
 ROOT_SPREAD = 0.01  # mm
 ROOT_ROLLS = (0.0, -0.25, 0.25)  # rad about the flank's roll, to look for the root from
+EDGE_SPREAD = 0.02  # mm, by which a place may fall short of the edge that is kept for the arc
 FAR = 5.0  # mm in the median off the conjugate: a start that met another sheet
 
 
@@ -53,6 +55,7 @@ class PinionModel:
     root_distance: Array  # S where the root is looked at, mm
     root_height: Array  # H wanted there
     root_spread: float  # how far it may stray, mm
+    least_edge: float  # mm along the blade from the tips, which its arc takes
     outward: float
     reference: float  # height of a curved blade's angle above the tips, mm
     start_memory: tuple[Array, ...]  # s and both turns of the flank (n,), both of the root
@@ -79,17 +82,27 @@ class PinionModel:
         root = root_at(vector, self.cone, side, self.root_distance, *memory[3:])
         if not np.all(root[3] < LEFT):
             return None
-        off, turned = angle - c.angle, got[7:] / lever
+        half = 7 + len(vector)
+        off, turned = angle - c.angle, got[7:half] / lever
         ease_off = -(off - off[c.middle]) * c.lever
         slopes = -(turned - turned[:, c.middle : c.middle + 1]) * c.lever
         wanted = self.wanted - self.wanted[c.middle]
+        short = np.where(self.there, np.maximum(self.least_edge - s, 0.0), 0.0) / EDGE_SPREAD
+        by_edge = np.where(short > 0.0, -got[half:] / EDGE_SPREAD, 0.0)
         residual = np.concatenate(
             [
                 (ease_off - wanted)[self.there] / UM,
                 (root[2] - self.root_height) / self.root_spread,
+                short[self.there],
             ]
         )
-        jacobian = np.concatenate([slopes[:, self.there].T / UM, (root[4:] / self.root_spread).T])
+        jacobian = np.concatenate(
+            [
+                slopes[:, self.there].T / UM,
+                (root[4:] / self.root_spread).T,
+                by_edge[:, self.there].T,
+            ]
+        )
         if not (np.isfinite(residual).all() and np.isfinite(jacobian).all()):
             return None
         lever = float(c.lever[c.middle])
@@ -128,11 +141,12 @@ def pinion_model(
     vector: Array,
     start: Places,
     target: Target,
-    root_spread: float = ROOT_SPREAD,
+    least_edge: float,
 ) -> PinionModel | None:
     """The model of a pinion flank at a start; None where the start does not reach the mean point.
 
-    ``start`` holds edge parameter and both turns from which Newton begins, (n,) each.
+    ``start`` holds edge parameter and both turns from which Newton begins, (n,) each; ``least_edge`` is what
+    the arc at the tips takes of the blade, mm.
     """
     own, c = blank.pinion, conjugate
     outward, side_sign = (-1.0 if side == "concave" else 1.0), (1.0 if side == "concave" else -1.0)
@@ -156,7 +170,18 @@ def pinion_model(
     memory = (*got[:3], *root)
     wanted = target.at(target_places(c, blank))
     return PinionModel(
-        side, cone, c, wanted, there, distance, height, root_spread, outward, 0.0, memory
+        side,
+        cone,
+        c,
+        wanted,
+        there,
+        distance,
+        height,
+        ROOT_SPREAD,
+        least_edge,
+        outward,
+        0.0,
+        memory,
     )
 
 

@@ -15,7 +15,7 @@ from hypoid.flank import SIDES, Side
 from ._conjugate import Conjugate, conjugate
 from ._joint_fit import Entry, FlankModel, JointFit, Tie, Wish, joint_fit
 from ._milled_request import MilledRequest
-from ._milled_wheel import MilledWheel, pitch_cone
+from ._milled_wheel import LEAST_EDGE, MilledWheel, pitch_cone
 from ._pinion_methods import (
     ALONE,
     METHODS,
@@ -60,6 +60,17 @@ class PinionTask:
     def limits(self) -> dict[str, float]:
         """Greatest change of each entry in one step."""
         return step_limits(self.blank, self.blank.wheel.teeth / self.blank.pinion.teeth)
+
+    @property
+    def least_edge(self) -> float:
+        """Along the blade from its tips, mm, that an edge arc must find below the active flank."""
+        radius = self.request.pinion_edge_radius
+        if radius is None:
+            radius = LEAST_EDGE * self.blank.mean_normal_module
+        angles = self.blank.pressure_angles
+        assert angles is not None
+        least = min(angles.drive, angles.coast)
+        return radius * (1.0 - math.sin(least)) / math.cos(least)
 
     def target(self, side: Side) -> Target:
         """What is asked of a pinion flank."""

@@ -9,7 +9,7 @@ itself is (undercut), and nowhere else, however the lines of contact run.
 
 A change of any entry moves the flank by n . dr/dp at fixed parameters of the sweep, since every one of
 them moves the point within the surface [notes on lin1996: sensitivity is n . dr/dp]: so derivatives are
-exact and need no second solve.
+exact and need no second solve. How the edge parameter at a place moves follows from the implicit function.
 """
 
 from __future__ import annotations
@@ -148,13 +148,14 @@ def _position_and_normal(
 
 def _newton(
     function: Callable[[Turns], tuple[Batch, ...]], start: Turns
-) -> tuple[Turns, tuple[Batch, ...], Batch]:
+) -> tuple[Turns, tuple[Batch, ...], Batch, tuple[Batch, ...]]:
     """Newton towards the zero of a function's first three values, side by side, with limited steps.
 
-    Returns where it ended, all values, and the determinant of the derivatives there.
+    Returns where it ended, all values, the determinant of the derivatives there, and the first unknown's
+    derivatives by the three values.
     """
 
-    def look(at: Turns) -> tuple[tuple[Batch, ...], Any, Batch]:
+    def look(at: Turns) -> tuple[tuple[Batch, ...], Any, Batch, Any]:
         directions = jnp.eye(3)[:, :, None] * jnp.ones_like(at[0])
 
         def push(direction: Any) -> Any:
@@ -162,35 +163,37 @@ def _newton(
 
         values, slopes = jax.vmap(push, out_axes=(None, 0))(directions)
         f, g, h = once((slopes[0], slopes[1], slopes[2]))
-        across = cross(g, h)
-        determinant = dot(f, across)
+        determinant = dot(f, cross(g, h))
+        inverse = [
+            tuple(c / determinant for c in v) for v in (cross(g, h), cross(h, f), cross(f, g))
+        ]
         step = [
-            (values[0] * a + values[1] * b + values[2] * c) / determinant
-            for a, b, c in zip(across, cross(h, f), cross(f, g), strict=True)
+            values[0] * a + values[1] * b + values[2] * c for a, b, c in zip(*inverse, strict=True)
         ]
         size = jnp.max(jnp.stack([jnp.abs(d) / n for d, n in zip(step, LIMITS, strict=True)]), 0)
         share = jnp.where(jnp.isfinite(size), 1.0 / jnp.maximum(1.0, size), 0.0)
-        return values, tuple(share * jnp.nan_to_num(d) for d in step), determinant
+        step = tuple(share * jnp.nan_to_num(d) for d in step)
+        return values, step, determinant, tuple(row[0] for row in inverse)
 
     def left(values: tuple[Batch, ...]) -> Batch:
         return jnp.abs(values[0]) + jnp.abs(values[1]) + jnp.abs(values[2])
 
     def go_on(state: Any) -> Any:
-        count, _, _, values, _ = state
+        count, _, _, values, *_ = state
         return (count < NEWTON) & jnp.any(left(values) > ARRIVED)
 
     def again(state: Any) -> Any:
-        count, at, step, _, _ = state
+        count, at, step, *_ = state
         at = tuple(a - d for a, d in zip(at, step, strict=True))
-        values, step, determinant = look(at)
-        return count + 1, at, step, values, determinant
+        values, step, *slopes = look(at)
+        return count + 1, at, step, values, *slopes
 
     nowhere = jnp.full_like(start[0], jnp.inf)
     zero = jnp.zeros_like(nowhere)
     count = len(jax.eval_shape(function, start))
-    state = (0, start, (zero,) * 3, (nowhere,) * count, zero)
-    _, at, _, values, determinant = jax.lax.while_loop(go_on, again, state)
-    return at, values, determinant
+    state = (0, start, (zero,) * 3, (nowhere,) * count, zero, (zero,) * 3)
+    _, at, _, values, determinant, first = jax.lax.while_loop(go_on, again, state)
+    return at, values, determinant, first
 
 
 def _slopes(point_of: Any, vector: Any, normal: Any) -> Any:
@@ -215,23 +218,31 @@ def _flank(
     theta: Batch,
     phi: Batch,
 ) -> tuple[Batch, ...]:
-    """s, both turns, angle, what is left (mm), lever, sense, and n . dr/dp of the flank at (z, rho)."""
+    """s, both turns, angle, what is left (mm), lever and sense of the flank at (z, rho); by every entry
+    n . dr/dp, and then ds/dp.
+    """
 
     def place_at(at: Turns) -> tuple[Batch, ...]:
         rate, at_z, at_rho, angle = _met(vector, edge_of(vector, side, reference), at)
         return at_z - z, at_rho - rho, rate, angle
 
-    at, (f, g, rate, angle), sense = _newton(place_at, (s, theta, phi))
+    at, (f, g, rate, angle), sense, first = _newton(place_at, (s, theta, phi))
     edge = edge_of(vector, side, reference)
     position, normal = once(_position_and_normal(vector, edge, at, outward))
     lever = position[0] * normal[1] - position[1] * normal[0]
+    radial = (position[0] * normal[0] + position[1] * normal[1]) / rho
 
-    def point(p: Any) -> Vector:
-        return _position(p, edge_of(p, side, reference), at)
+    def by(direction: Any) -> tuple[Batch, Batch]:
+        def met(p: Any) -> tuple[Batch, ...]:
+            return _met(p, edge_of(p, side, reference), at)
 
-    slopes = _slopes(point, vector, normal)
+        rate, at_z, at_rho, angle = jax.jvp(met, (vector,), (direction,))[1]
+        moved = normal[2] * at_z + radial * at_rho + lever * angle
+        return moved, -(first[0] * at_z + first[1] * at_rho + first[2] * rate)
+
+    slopes, along = jax.vmap(by)(jnp.eye(vector.shape[0]))
     left = jnp.sqrt(f * f + g * g + rate * rate)
-    return *at, angle, left, lever, sense, *slopes
+    return *at, angle, left, lever, sense, *slopes, *along
 
 
 def _root(
@@ -254,7 +265,7 @@ def _root(
         return at[0], reached - distance, rate, height
 
     start = (jnp.zeros_like(distance), theta, phi)
-    at, (_, left, rate, height), _ = _newton(place_at, start)
+    at, (_, left, rate, height), *_ = _newton(place_at, start)
     position, normal = _position_and_normal(vector, tip(vector), at, 1.0)
     radius = jnp.hypot(position[0], position[1])
     radial = (position[0] * normal[0] + position[1] * normal[1]) / radius

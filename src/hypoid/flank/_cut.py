@@ -55,9 +55,9 @@ def cut_flank(
     place = Surface(generator(settings), 1.0, 1.0, way)
     asked = Flank(member, side, settings, pieces, place, cone, mirrored, 0.0, toe, heel, tip, root)
     flank = _rooted(asked, way, theta_start)
-    if way == "cutter" and not np.isfinite(flank.charts["flank"].error):
+    if way == "cutter" and not flank.generated:
         other = _rooted(asked, "cradle" if settings.plain_roll else "newton", theta_start)
-        if np.isfinite(other.charts["flank"].error):
+        if len(other.cut_away) < len(flank.cut_away):
             return other
     return flank
 
