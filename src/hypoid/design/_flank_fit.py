@@ -13,7 +13,7 @@ from hypoid.machine import MachineSettings
 from ._fit import CUT, Fit
 from ._joint_fit import JointFit, Unknowns
 from ._pinion_methods import HEAD
-from ._pinion_model import ROOT_SPREAD, UM, PinionModel
+from ._pinion_model import ROOT_PLACES, UM, PinionModel
 from ._pinion_task import PinionTask, Stage
 from ._settings_model import INDEX, MOTIONS, ROLL, settings_of
 
@@ -96,7 +96,7 @@ def flank_fits(task: PinionTask, stage: Stage) -> dict[Side, FlankFit]:
             wanted=model.wanted - model.wanted[model.conjugate.middle],
             ease_off=ease_off,
             least_edge=float(look.memory[0][model.there].min()),
-            root_error=look.residual[count : count + 3] * ROOT_SPREAD,
+            root_error=look.residual[count : count + ROOT_PLACES] * model.root_spread,
             fit=joint.fit,
             held=held,
             helpful=_helpful(task, stage, joint, model),

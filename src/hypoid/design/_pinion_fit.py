@@ -6,14 +6,15 @@ A flank alone, or both flanks of a slot by one setting; either is one joint fit,
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from hypoid.flank import SIDES, Side
 
 from ._flank_fit import FlankFit, flank_fits
 from ._joint_fit import Wish
 from ._milled_wheel import pitch_cone
-from ._pinion_methods import BASE, HEAD
-from ._pinion_model import pinion_model
+from ._pinion_methods import APART, BASE, HEAD
+from ._pinion_model import CORNER_SPREAD, ROOT_SPREAD, pinion_model
 from ._pinion_start import conjugate_places, conjugate_start, plain_places, plain_start
 from ._pinion_task import PinionTask, Stage, goals, led, run
 from ._settings_model import INDEX
@@ -67,8 +68,9 @@ def _from_plain(task: PinionTask, sides: Sequence[Side]) -> Stage | None:
         start = plain_start(task.blank, task.request.blank.cutter_radius, side)
         found = task.conjugates[side]
         places = plain_places(found, task.blank, start, side)
+        spread = CORNER_SPREAD if len(sides) > 1 else ROOT_SPREAD
         model = pinion_model(
-            side, found, task.blank, cone, start, places, task.target(side), task.least_edge
+            side, found, task.blank, cone, start, places, task.target(side), task.least_edge, spread
         )
         if model is None or model.count < FEWEST:
             return None
@@ -111,7 +113,7 @@ def _from_between(task: PinionTask) -> Stage | None:
         return None
     stages = [stage for stage in apart if stage is not None]
     start = Stage(
-        tuple(s.models[0] for s in stages),
+        tuple(replace(s.models[0], root_spread=CORNER_SPREAD) for s in stages),
         tuple(s.vectors[0] for s in stages),
         tuple(s.memories[0] for s in stages),
     )
@@ -120,7 +122,13 @@ def _from_between(task: PinionTask) -> Stage | None:
 
 
 def _spread(task: PinionTask) -> dict[str, Wish]:
-    return {name: Wish(0.0, spread) for name, spread in task.method.spreads.items()}
+    """Wishes about zero, which keep motions and bent blades no greater than they serve."""
+    found: dict[str, Wish] = {}
+    for name, spread in task.method.spreads.items():
+        apart = task.method.joint and name in APART
+        for one in [f"{side}.{name}" for side in SIDES] if apart else [name]:
+            found[one] = Wish(0.0, spread)
+    return found
 
 
 def _finished(task: PinionTask, stage: Stage, free: Sequence[str]) -> Stage | None:

@@ -18,6 +18,9 @@ BASE = (
     "sliding_base", "ratio_of_roll", "point_radius", "blade_angle",
 )  # fmt: skip
 HEAD = ("tilt_angle", "swivel_angle")
+APART = ("blade_angle", "blade_curvature")  # what each blade of one cutter has of its own
+CURVE = "blade_curvature"
+BEND = 1.0 / 300.0  # 1/mm, about zero: blades of one cutter may be curved
 LEAST_POINT = 0.15  # of the mean normal module: a blade's point must stand
 SIDES = ("concave", "convex")
 
@@ -42,9 +45,12 @@ METHODS: dict[str, Freedom] = {
     "universal": Freedom(
         (*BASE, *HEAD, "helical_motion", *ROLL, *MOTIONS), (), {"helical_motion": 10.0}
     ),
-    "completing": Freedom((*BASE, *HEAD), joint=True),
+    "completing": Freedom((*BASE, *HEAD, CURVE), (), {CURVE: BEND}, joint=True),
     "duplex-helical": Freedom(
-        (*BASE, *HEAD, "helical_motion", *ROLL[:2]), (), {"helical_motion": 10.0}, joint=True
+        (*BASE, *HEAD, CURVE, "helical_motion", *ROLL[:2]),
+        (),
+        {"helical_motion": 10.0, CURVE: BEND},
+        joint=True,
     ),
 }
 # What a flank alone is cut with where the method cuts both: a joint fit may start from there.
@@ -154,7 +160,7 @@ def entries_of(
             low = max(low, LEAST_POINT * blank.mean_normal_module)
             moves = {name: 0.5}, {name: -0.5}
             found.append(Entry("point_width", moves, limit, low, high))
-        elif joint and name in ("blade_angle", "blade_curvature"):
+        elif joint and name in APART:
             for n, side in enumerate(SIDES):
                 moves = tuple({name: 1.0} if n == k else {} for k in range(2))
                 found.append(Entry(f"{side}.{name}", moves, limit, low, high))

@@ -26,6 +26,8 @@ UM = 1e-3  # mm
 LEFT = 1e-8  # mm that Newton may leave
 FOLDING = 0.1  # of the mean point's places per parameters: nearer to undercut, nothing counts
 ROOT_SPREAD = 0.01  # mm
+CORNER_SPREAD = 0.1  # mm, of one corner of a slot that one cutter cuts
+ROOT_PLACES = 3  # toe, mean point, heel
 ROOT_ROLLS = (0.0, -0.25, 0.25)  # rad about the flank's roll, to look for the root from
 EDGE_SPREAD = 0.02  # mm, by which a place may fall short of the edge that is kept for the arc
 FAR = 5.0  # mm in the median off the conjugate: a start that met another sheet
@@ -39,8 +41,8 @@ class Seen:
     jacobian: Array  # (rows, entries of the vector)
     memory: tuple[Array, ...]
     ease_off: Array  # (n,) mm
-    missing: float  # mm, how far the flank stands inside the conjugate's at the middle
-    missing_slopes: Array  # its derivatives by every entry
+    turn: float  # rad, from the conjugate to the flank at the middle, about the axis
+    turn_slopes: Array  # its derivatives by every entry
 
 
 @dataclass(frozen=True)
@@ -105,12 +107,9 @@ class PinionModel:
         )
         if not (np.isfinite(residual).all() and np.isfinite(jacobian).all()):
             return None
-        lever = float(c.lever[c.middle])
         memory = (s, theta, phi, root[0], root[1])
-        return Seen(
-            residual, jacobian, memory, ease_off,
-            -float(off[c.middle]) * lever, -turned[:, c.middle] * lever,
-        )  # fmt: skip
+        turn, turn_slopes = float(off[c.middle]), turned[:, c.middle]
+        return Seen(residual, jacobian, memory, ease_off, turn, turn_slopes)
 
     def asked(self, target: Target, blank: PairBlank) -> PinionModel:
         """The same flank with another target."""
@@ -142,6 +141,7 @@ def pinion_model(
     start: Places,
     target: Target,
     least_edge: float,
+    root_spread: float = ROOT_SPREAD,
 ) -> PinionModel | None:
     """The model of a pinion flank at a start; None where the start does not reach the mean point.
 

@@ -27,7 +27,7 @@ from ._pinion_methods import (
     entries_of,
     step_limits,
 )
-from ._pinion_model import UM, PinionModel, Seen
+from ._pinion_model import ROOT_PLACES, UM, PinionModel, Seen
 from ._settings_model import ANGLES, INDEX
 from ._target import Target
 
@@ -35,6 +35,8 @@ Array = np.ndarray[Any, Any]
 LEADING = math.radians(0.02)  # how firmly an angle is led to a value
 LED = 0.02  # of a step limit: the same for what is no angle
 BACKLASH = 0.002  # mm, how far a slot's backlash may stray
+ROOT_SPREAD = 0.02  # mm, of the mean of a slot's two corners; each may stray further
+JOINT_BLADE = math.radians(2.0)  # blades of one cutter depart further from their pressure angles
 CUTTER = 0.1  # of the cutter's radius, that a spread-blade pinion cutter may stray
 
 
@@ -164,21 +166,33 @@ def _blade_wishes(task: PinionTask, stage: Stage) -> dict[str, Wish]:
     if len(stage.models) == 1:
         return {"blade_angle": blade_wish(pressure[stage.models[0].side])}
     radius = task.request.blank.cutter_radius
-    wishes = {f"{side}.blade_angle": blade_wish(pressure[side]) for side in SIDES}
+    wishes = {f"{side}.blade_angle": Wish(pressure[side], JOINT_BLADE) for side in SIDES}
     return {**wishes, "cutter_radius": Wish(radius, CUTTER * radius)}
 
 
 def _slot_tie(task: PinionTask, stage: Stage) -> Any:
-    """Row of the normal backlash that one cutter's slot leaves, as far as both flanks stand inside their conjugates."""
+    """Rows of the normal backlash that one cutter's slot leaves, and of its root, concave flank first.
+
+    Turned onto its conjugate each flank would touch; what lies between both turns is play. A tilted
+    cutter's root slants across the slot: what is asked for is the mean of both corners'.
+    """
     pitch = 2.0 * math.pi / task.blank.pinion.teeth
-    levers = [abs(float(m.conjugate.lever[m.conjugate.middle])) for m in stage.models]
-    period = pitch * 0.5 * sum(levers)
+    first, second = (float(m.conjugate.lever[m.conjugate.middle]) for m in stage.models)
+    lever, asked = 0.5 * (first - second), task.request.normal_backlash
 
     def tie(looks: Sequence[Seen]) -> Tie:
-        left = sum(look.missing for look in looks) - task.request.normal_backlash
-        left -= period * round(left / period)
-        slopes = tuple(look.missing_slopes[None] / BACKLASH for look in looks)
-        return Tie(np.array([left / BACKLASH]), slopes)
+        concave, convex = looks
+        play = convex.turn - concave.turn - asked / lever
+        play -= pitch * round(play / pitch)
+        size = lever / BACKLASH
+        at = [slice(m.count, m.count + ROOT_PLACES) for m in stage.models]
+        share = [0.5 * m.root_spread / ROOT_SPREAD for m in stage.models]
+        roots = sum(k * look.residual[n] for k, look, n in zip(share, looks, at, strict=True))
+        slopes = tuple(
+            np.vstack([sign * size * look.turn_slopes, k * look.jacobian[n]])
+            for sign, k, look, n in zip((-1.0, 1.0), share, looks, at, strict=True)
+        )
+        return Tie(np.append(size * play, roots), slopes)
 
     return tie
 
