@@ -13,6 +13,7 @@ from ._blank import Spec as Spec
 from ._blank import sheet_blank as sheet_blank
 from ._blank import spec_blank as spec_blank
 from ._milled_request import MilledRequest as MilledRequest
+from ._milled_request import PinionLimits as PinionLimits
 from ._milled_request import PinionMethod as PinionMethod
 from ._milled_request import WheelMethod as WheelMethod
 from ._sheet_spec import BladeSpec as BladeSpec
@@ -40,9 +41,9 @@ if TYPE_CHECKING:
     from ._dialled import dialled as dialled
     from ._dialled import machine_named as machine_named
     from ._exact_face_hobbed import exact_settings as exact_settings
+    from ._flank_fit import FlankFit as FlankFit
     from ._milled_design import MilledDesign as MilledDesign
     from ._milled_design import design_milled as design_milled
-    from ._pinion_fit import FlankFit as FlankFit
 
 _LAZY = {
     "axis_tables": "_dialled",
@@ -51,7 +52,7 @@ _LAZY = {
     "dialled": "_dialled",
     "machine_named": "_dialled",
     "exact_settings": "_exact_face_hobbed",
-    "FlankFit": "_pinion_fit",
+    "FlankFit": "_flank_fit",
     "MilledDesign": "_milled_design",
     "design_milled": "_milled_design",
 }

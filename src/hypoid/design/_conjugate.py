@@ -74,7 +74,7 @@ def _conjugate(gen: Generator, branch: Scalar, *rows: Batch) -> tuple[Batch, ...
     return z, rho, jnp.arctan2(y, x) - at.turn, lever, mesh.discriminant, at.phi
 
 
-_conjugated = Batched(_conjugate, parameters=2, block=256)
+_conjugated = Batched(_conjugate, parameters=2, block=32, most=96)
 
 
 def conjugate(blank: PairBlank, wheel: Flank, pinion_cone: PitchCone) -> Conjugate:

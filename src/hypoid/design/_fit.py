@@ -3,7 +3,8 @@
 Columns are scaled by the step that an entry may take, so that mm and rad compare; singular directions
 below the cut are left alone, and shown. A step that is too long is tried in two ways, shortened as a whole
 and damped where little is determined (Levenberg and Marquardt): the first goes far along a valley, the
-second down its side. Plain NumPy.
+second down its side. Entries may have bounds: one that stands at its bound and wants out is held
+there, and the rest are solved for again, until none wants out (an active set). Plain NumPy.
 """
 
 from __future__ import annotations
@@ -41,6 +42,7 @@ class Fit:
     )
     steps: int
     settled: bool
+    held: Array  # (n,) +1 or -1 where an entry stands at its upper or lower bound and wants out
 
     @property
     def cost(self) -> float:
@@ -57,32 +59,39 @@ def gauss_newton(
     memory: Any,
     limits: Array,
     *,
+    low: Array | None = None,
+    high: Array | None = None,
     steps: int = 40,
     cut: float = CUT,
     tolerance: float = 1e-6,
 ) -> Fit | None:
     """Least squares by truncated Gauss-Newton; None where not even the start can be computed.
 
-    ``model`` gives a look, or None where there is none, from what an accepted look remembers;
-    ``limits`` is the greatest change of each entry in one step, which is its scale, too.
+    Parameters
+    ----------
+    model
+        Gives a look, or None where there is none, from what an accepted look remembers.
+    limits
+        The greatest change of each entry in one step, which is its scale, too.
+    low, high
+        Bounds of each entry; the start is put between them. None: no bounds.
     """
-    seen = model(start, memory)
+    low = np.full(len(start), -np.inf) if low is None else low
+    high = np.full(len(start), np.inf) if high is None else high
+    x = np.clip(start, low, high)
+    seen = model(x, memory)
     if seen is None:
         return None
-    x, settled, taken = start, False, 0
+    settled, taken = False, 0
     best, nearest = x, seen
     while taken < steps and not settled:
         taken += 1
-        u, values, rows = np.linalg.svd(seen.jacobian * limits, full_matrices=False)
-        kept = values > cut * values[0]
-        values, rows, wanted = values[kept], rows[kept], (u.T @ seen.residual)[kept]
+        room = (low - x) / limits, (high - x) / limits
+        problem = _Linear(seen.jacobian * limits, seen.residual, *room, cut)
         cost, gain, reach = float(seen.residual @ seen.residual), 0.0, 1.0
         while reach > LEAST_REACH:
-            for step in (
-                _scaled(values, rows, wanted, reach),
-                _damped(values, rows, wanted, reach),
-            ):
-                trial = x + limits * step
+            for kind in (_scaled, _damped):
+                trial = np.clip(x + limits * problem.step(kind, reach), low, high)
                 look = model(trial, seen.memory)
                 left = np.inf if look is None else float(look.residual @ look.residual)
                 if look is not None and left < cost - gain:
@@ -93,13 +102,62 @@ def gauss_newton(
             reach *= SHRINK
         settled = gain <= tolerance * cost
     _, values, rows = np.linalg.svd(seen.jacobian * limits, full_matrices=False)
-    return Fit(x, seen, values, rows, taken, settled)
+    held = _held(seen.jacobian * limits, seen.residual, (low - x) / limits, (high - x) / limits)
+    return Fit(x, seen, values, rows, taken, settled, held)
+
+
+Kind = Callable[[Array, Array, Array, float], Array]
+
+
+class _Linear:
+    """The linear problem of one step, between bounds; all in units of the limits."""
+
+    def __init__(
+        self, jacobian: Array, residual: Array, low: Array, high: Array, cut: float
+    ) -> None:
+        self._jacobian, self._residual, self._cut = jacobian, residual, cut
+        self._low, self._high = low, high
+        self._out = _held(jacobian, residual, low, high) != 0.0
+        self._first = self._resolved(~self._out, residual)
+
+    def step(self, kind: Kind, reach: float) -> Array:
+        """The step of a kind within reach and bounds."""
+        out, step = self._out.copy(), np.zeros(len(self._low))
+        parts = self._first
+        while True:
+            step[~out] = kind(*parts, reach)
+            beyond = ~out & ((step < self._low) | (step > self._high))
+            if not beyond.any():
+                return step
+            step = np.clip(step, self._low, self._high)
+            out |= beyond
+            if out.all():
+                return step
+            rest = self._residual + self._jacobian[:, out] @ step[out]
+            parts = self._resolved(~out, rest)
+
+    def _resolved(self, free: Array, residual: Array) -> tuple[Array, Array, Array]:
+        """Singular values, right vectors and the residual along the left ones, where determined."""
+        u, values, rows = np.linalg.svd(self._jacobian[:, free], full_matrices=False)
+        kept = values > self._cut * values[0] if len(values) else np.zeros(0, bool)
+        return values[kept], rows[kept], (u.T @ residual)[kept]
+
+
+AT_BOUND = 1e-9  # of a step limit
+
+
+def _held(jacobian: Array, residual: Array, low: Array, high: Array) -> Array:
+    """+1 or -1 where an entry at its upper or lower bound would gain by leaving it, else 0."""
+    gradient = jacobian.T @ residual
+    upper = (high < AT_BOUND) & (gradient < 0.0)
+    lower = (low > -AT_BOUND) & (gradient > 0.0)
+    return upper.astype(float) - lower.astype(float)
 
 
 def _scaled(values: Array, rows: Array, wanted: Array, reach: float) -> Array:
     """The Gauss-Newton step, shortened to the trust region; in units of the limits."""
     step = -(rows.T @ (wanted / values))
-    return step / max(1.0, float(np.abs(step).max()) / reach)
+    return step / max(1.0, float(np.abs(step).max(initial=0.0)) / reach)
 
 
 def _damped(values: Array, rows: Array, wanted: Array, reach: float) -> Array:
@@ -107,6 +165,6 @@ def _damped(values: Array, rows: Array, wanted: Array, reach: float) -> Array:
     damping = 0.0
     while True:
         step = -(rows.T @ (wanted * values / (values**2 + damping**2)))
-        if np.abs(step).max() <= reach:
+        if np.abs(step).max(initial=0.0) <= reach:
             return step
         damping = max(GROWTH * damping, float(values[-1]))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import sin
+from math import cos, sin
 from typing import Any
 
 from hypoid.blank import (
@@ -20,18 +20,23 @@ from hypoid.flank import SIDES, Side
 from hypoid.geometry import DesignError, Problem
 from hypoid.machine import MachineSettings, to_sheet
 
+from ._flank_fit import FlankFit
 from ._member_blanks import given_blank
-from ._milled_request import MilledRequest
+from ._milled_request import TOGETHER, MilledRequest
 from ._milled_wheel import EDGE, ROOM, MilledWheel, milled_wheel
-from ._pinion_fit import FlankFit, fit_pinion
+from ._pinion_fit import fit_pinion
+from ._pinion_task import pinion_task
 from ._sheet_spec import BladeSpec, FlankSpec, MemberSpec, Method, SummarySheetSpec
 
 SHEET_METHODS: dict[str, Method] = {
     "tilt": "tilt",
     "modified-roll": "modified-roll",
     "generated": "generated",
+    "fixed-setting": "modified-roll",
     "helical": "tilt",
     "universal": "tilt",
+    "completing": "duplex",
+    "duplex-helical": "helical-duplex",
 }
 
 
@@ -69,6 +74,8 @@ class MilledDesign:
             f"(rms {1e3 * fit.rms:.1f} um; tolerance {1e3 * self.request.tolerance:g} um) with method "
             f'"{self.request.pinion_method}"'
         )
+        if fit.held:
+            words += f"; {', '.join(fit.held)}"
         helpful = [
             f"{name} (rms {1e3 * rms:.1f} um)" for name, rms in fit.helpful if rms < 0.8 * fit.rms
         ]
@@ -89,14 +96,8 @@ def design_milled(request: MilledRequest) -> MilledDesign:
         raise DesignError(problems)
     blank = iso_blank(request.blank)
     wheel = milled_wheel(request, blank)
-    fits: dict[Side, FlankFit] = {}
-    lost: list[str] = []
-    for side in SIDES:
-        fit = fit_pinion(request, blank, wheel, side)
-        if fit is None:
-            lost.append(side)
-        else:
-            fits[side] = fit
+    fits = fit_pinion(pinion_task(request, blank, wheel))
+    lost = [side for side in SIDES if side not in fits]
     if lost:
         given = f'"{request.pinion_method}" ({" and ".join(lost)})'
         expected = (
@@ -124,8 +125,12 @@ def _spec(
     """The complete file of what was found."""
     cut, land = wheel.cut, 0.5 * wheel.cut.point_width
     edge = request.pinion_edge_radius
+    together = request.pinion_method in TOGETHER
+    own_land = 0.5 * (fits["concave"].point_radius - fits["convex"].point_radius)
     if edge is None:
         edge = _pinion_edge(blank, wheel, fits)
+        if together:  # both arcs have room on one cutter's point
+            edge = min(edge, *(_arc(own_land, fit.blade_angle) for fit in fits.values()))
 
     def wheel_flank(side: Side) -> FlankSpec:
         i = 0 if side == "concave" else 1
@@ -135,10 +140,14 @@ def _spec(
 
     def pinion_flank(side: Side) -> FlankSpec:
         fit = fits[side]
-        blade = BladeSpec(fit.point_radius, fit.blade_angle, edge)
+        blade = BladeSpec(
+            fit.point_radius, fit.blade_angle, edge, own_land if together else None, **_curve(fit)
+        )
         dials = _dials(fit.settings, blank.pinion.pitch_apex_beyond_crossing_point)
         method = SHEET_METHODS[request.pinion_method]
-        at_flank = frozenset(f"settings.{name}" for name in dials) | _AT_PINION
+        at_flank = (
+            _AT_WHEEL if together else frozenset(f"settings.{name}" for name in dials) | _AT_PINION
+        )
         return FlankSpec(method, "basic", dials, blade, at_flank)
 
     return SummarySheetSpec(
@@ -162,8 +171,20 @@ def _spec(
             wheel_flank("convex"),
         ),
         marking_thickness=request.marking_thickness,
-        normal_backlash=request.normal_backlash,
+        normal_backlash=None if together else request.normal_backlash,
     )
+
+
+def _curve(fit: FlankFit) -> dict[str, Any]:
+    """How a curved blade is written; it has its angle at the tips."""
+    if not fit.blade_curvature:
+        return {}
+    return {"curve": "circular-arc", "curve_radius": 1.0 / fit.blade_curvature}
+
+
+def _arc(length: float, angle: float) -> float:
+    """Edge radius, mm, whose arc takes so much of a blade from its sharp corner, mm."""
+    return 0.98 * max(length, 0.0) * cos(angle) / (1.0 - sin(angle))
 
 
 def _pinion_edge(blank: PairBlank, wheel: MilledWheel, fits: Mapping[Side, FlankFit]) -> float:
@@ -172,6 +193,9 @@ def _pinion_edge(blank: PairBlank, wheel: MilledWheel, fits: Mapping[Side, Flank
     for fit in fits.values():
         room = ROOM * (blank.clearance or 0.0) - max(0.0, float(fit.root_error.max()))
         usual = min(usual, room / (1.0 - sin(fit.blade_angle)))
+        usual = min(
+            usual, _arc(fit.least_edge, fit.blade_angle)
+        )  # below all that the wheel touches
     return max(usual, 0.0)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -12,15 +13,56 @@ from ._spec import Assumption
 from ._target import EaseOffTarget, Target
 
 WheelMethod = Literal["formate", "generated"]
-PinionMethod = Literal["tilt", "modified-roll", "generated", "helical", "universal"]
+PinionMethod = Literal[
+    "tilt", "modified-roll", "generated", "fixed-setting", "helical", "universal", "completing",
+    "duplex-helical",
+]  # fmt: skip
+TOGETHER: tuple[PinionMethod, ...] = (
+    "completing",
+    "duplex-helical",
+)  # one setting cuts both flanks
+
+
+@dataclass(frozen=True)
+class PinionLimits:
+    """Which settings of the pinion a fit may move, and how far; sheet's signs, mm and rad.
+
+    ``free`` adds to what the method moves, ``fixed`` takes away and gives the value, ``ranges`` bound;
+    ``machine`` is a cradle machine whose dials bound the settings.
+    """
+
+    machine: str = ""
+    free: tuple[str, ...] = ()
+    fixed: Mapping[str, float] = field(default_factory=dict[str, float])
+    ranges: Mapping[str, tuple[float, float]] = field(
+        default_factory=dict[str, tuple[float, float]]
+    )
+
+    def problems(self) -> list[Problem]:
+        """What contradicts itself."""
+        found: list[Problem] = []
+        for name in self.free:
+            if name in self.fixed:
+                expected = f"free or fixed: pinion.fixed gives {name} a value"
+                found.append(Problem("pinion.free", f'"{name}"', expected, f"# {name}"))
+        for name, (low, high) in self.ranges.items():
+            if low > high:
+                expected = "the least first, then the greatest"
+                found.append(Problem(f"pinion.range.{name}", f"{low:g}, {high:g}", expected, ""))
+            elif name in self.fixed and not low <= self.fixed[name] <= high:
+                expected = "a value within pinion.range, or no such range"
+                given = f"{self.fixed[name]:g}"
+                found.append(Problem(f"pinion.fixed.{name}", given, expected, ""))
+        return found
 
 
 @dataclass(frozen=True)
 class MilledRequest:
     """A face-milled pair from its blank; mm and rad.
 
-    The wheel is cut by spread blades, the pinion side by side. ``tolerance`` is the greatest distance
-    that a pinion flank may keep from the target ease-off.
+    The wheel is cut by spread blades, the pinion side by side or, with the methods of ``TOGETHER``, by
+    spread blades, too. ``tolerance`` is the greatest distance that a pinion flank may keep from the target
+    ease-off.
     """
 
     title: str
@@ -34,12 +76,14 @@ class MilledRequest:
     tolerance: float = 0.005
     wheel_edge_radius: float | None = None  # None: what AGMA 929 leaves, up to 0.3 modules
     pinion_edge_radius: float | None = None
+    limits: PinionLimits = field(default_factory=PinionLimits)
     normal_backlash: float = 0.15
     marking_thickness: float = 0.00635
 
     def problems(self) -> list[Problem]:
         """What makes no sense beside the blank's numbers."""
         found = [*self.drive.problems("contact.drive"), *self.coast.problems("contact.coast")]
+        found += self.limits.problems()
         if self.blank.blade_groups:
             given = f"{self.blank.blade_groups}"
             expected = "0: face milling cuts slot by slot"

@@ -1,4 +1,4 @@
-"""What each pinion method may move, and in which stages a fit goes from the conjugate start to it."""
+"""What each pinion method may move, and what a request lets it: free, fixed, and within which bounds."""
 
 from __future__ import annotations
 
@@ -7,8 +7,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from hypoid.blank import PairBlank
+from hypoid.machine import MACHINES
 
-from ._pinion_model import Wish
+from ._joint_fit import Entry, Wish
+from ._milled_request import PinionLimits
 from ._settings_model import ANGLES, INDEX, MOTIONS, ROLL
 
 BASE = (
@@ -16,6 +18,11 @@ BASE = (
     "sliding_base", "ratio_of_roll", "point_radius", "blade_angle",
 )  # fmt: skip
 HEAD = ("tilt_angle", "swivel_angle")
+APART = ("blade_angle", "blade_curvature")  # what each blade of one cutter has of its own
+CURVE = "blade_curvature"
+BEND = 1.0 / 300.0  # 1/mm, about zero: blades of one cutter may be curved
+LEAST_POINT = 0.15  # of the mean normal module: a blade's point must stand
+SIDES = ("concave", "convex")
 
 
 @dataclass(frozen=True)
@@ -25,19 +32,29 @@ class Freedom:
     free: tuple[str, ...]
     rest: tuple[str, ...] = ()  # led to zero and then kept there
     spreads: Mapping[str, float] = field(default_factory=dict[str, float])  # about zero
+    root_plane: bool = False  # tips held in the blank's root plane
+    joint: bool = False  # both flanks by one setting
 
 
 METHODS: dict[str, Freedom] = {
     "tilt": Freedom((*BASE, *HEAD)),
     "modified-roll": Freedom((*BASE, *ROLL[:3]), HEAD),
     "generated": Freedom(BASE, HEAD),
+    "fixed-setting": Freedom((*BASE, *ROLL[:2]), HEAD, root_plane=True),
     "helical": Freedom((*BASE, *HEAD, "helical_motion", ROLL[0]), (), {"helical_motion": 10.0}),
     "universal": Freedom(
-        (*BASE, *HEAD, "helical_motion", *ROLL, *MOTIONS),
+        (*BASE, *HEAD, "helical_motion", *ROLL, *MOTIONS), (), {"helical_motion": 10.0}
+    ),
+    "completing": Freedom((*BASE, *HEAD, CURVE), (), {CURVE: BEND}, joint=True),
+    "duplex-helical": Freedom(
+        (*BASE, *HEAD, CURVE, "helical_motion", *ROLL[:2]),
         (),
-        {"helical_motion": 10.0},
+        {"helical_motion": 10.0, CURVE: BEND},
+        joint=True,
     ),
 }
+# What a flank alone is cut with where the method cuts both: a joint fit may start from there.
+ALONE = {"completing": "tilt", "duplex-helical": "helical"}
 
 
 def step_limits(blank: PairBlank, ratio: float) -> dict[str, float]:
@@ -59,6 +76,98 @@ def step_limits(blank: PairBlank, ratio: float) -> dict[str, float]:
     return limits
 
 
-def blade_wish(angle: float) -> dict[str, Wish]:
+def blade_wish(angle: float) -> Wish:
     """Blades near their pressure angle: 3 deg away weighs as 1 um all over the flank."""
-    return {"blade_angle": Wish(angle, math.radians(0.5))}
+    return Wish(angle, math.radians(0.5))
+
+
+Bounds = dict[str, tuple[float, float]]
+
+
+def machine_bounds(name: str) -> Bounds:
+    """Basic settings (chain's signs; mm, rad) within which a cradle machine's dials stay.
+
+    Dials that go round (cradle, swivel) bound nothing; an eccentric bounds the radial distance, a tilted
+    head's spindle the tilt.
+    """
+    machine = MACHINES[name]
+    ranges = machine.ranges
+    bounds: Bounds = {}
+    low, high = ranges["eccentric_angle"]
+    reach = 2.0 * machine.constants.eccentric
+    bounds["radial_distance"] = reach * math.sin(0.5 * low), reach * math.sin(0.5 * high)
+    for dial in ("machine_root_angle", "machine_center_to_back", "sliding_base", "blank_offset"):
+        bounds[dial] = ranges[dial]
+    if "cutter_spindle_rotation_angle" in ranges:
+        low, high = (
+            2.0 * math.asin(math.sin(machine.constants.wedge) * math.sin(0.5 * turn))
+            for turn in (0.0, math.pi)
+        )
+        bounds["tilt_angle"] = low, high
+    else:
+        bounds["tilt_angle"] = 0.0, 0.0
+        bounds["helical_motion"] = 0.0, 0.0
+    return bounds
+
+
+def chain_value(name: str, value: float, blank: PairBlank) -> float:
+    """A setting of the summary sheet in the chain's signs: offset turned round, back from the crossing point."""
+    if name == "blank_offset":
+        return -value
+    if name == "machine_center_to_back":
+        return value + blank.pinion.pitch_apex_beyond_crossing_point
+    return value
+
+
+def bounds_of(limits: PinionLimits, blank: PairBlank) -> Bounds:
+    """Bounds that a request sets on entries, chain's signs: its machine's and its own."""
+    bounds = machine_bounds(limits.machine) if limits.machine else {}
+    for name, ends in limits.ranges.items():
+        low, high = sorted(chain_value(name, v, blank) for v in ends)
+        least, most = bounds.get(name, (-math.inf, math.inf))
+        bounds[name] = max(low, least), min(high, most)
+    return bounds
+
+
+def entries_of(
+    names: tuple[str, ...],
+    limits: Mapping[str, float],
+    bounds: Bounds,
+    blank: PairBlank,
+    *,
+    joint: bool,
+    root_plane: bool = False,
+) -> tuple[Entry, ...]:
+    """The unknowns of a fit: one flank's entries, or what both flanks of a slot share and have apart.
+
+    One cutter cuts both flanks of a slot: its mean radius and its point width make the point radii.
+    """
+    count = 2 if joint else 1
+    found: list[Entry] = []
+    for name in names:
+        low, high = bounds.get(name, (-math.inf, math.inf))
+        limit = limits[name]
+        if root_plane and name in ("machine_root_angle", "sliding_base"):
+            continue
+        if root_plane and name == "machine_center_to_back":
+            move = {name: 1.0, "sliding_base": -math.sin(blank.pinion.root_angle)}
+            found.append(Entry(name, (move,) * count, limit, low, high, ({name: 1.0},) * count))
+        elif joint and name == "point_radius":
+            found.append(
+                Entry("cutter_radius", ({name: 1.0},) * 2, limit, *_of(bounds, "cutter_radius"))
+            )
+            low, high = _of(bounds, "point_width")
+            low = max(low, LEAST_POINT * blank.mean_normal_module)
+            moves = {name: 0.5}, {name: -0.5}
+            found.append(Entry("point_width", moves, limit, low, high))
+        elif joint and name in APART:
+            for n, side in enumerate(SIDES):
+                moves = tuple({name: 1.0} if n == k else {} for k in range(2))
+                found.append(Entry(f"{side}.{name}", moves, limit, low, high))
+        else:
+            found.append(Entry(name, ({name: 1.0},) * count, limit, low, high))
+    return tuple(found)
+
+
+def _of(bounds: Bounds, name: str) -> tuple[float, float]:
+    return bounds.get(name, (-math.inf, math.inf))

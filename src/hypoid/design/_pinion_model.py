@@ -1,14 +1,14 @@
 """Residuals of one pinion flank against what is asked of it, with their exact Jacobian.
 
 Three kinds of rows: ease-off against its target (um), the root that the blade's tips cut against the
-blank's root line, and wishes: values that entries should keep near, each with how far it may stray.
+blank's root line, and what the blade lacks below its flank: where a place on the active flank would be cut by
+less edge than the tips' arc needs, or by none.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -17,23 +17,20 @@ from hypoid.blank import PairBlank
 from hypoid.flank import PitchCone, Side
 
 from ._conjugate import Conjugate
-from ._settings_model import INDEX, NAMES, flank_at, root_at
+from ._pinion_start import Places
+from ._settings_model import flank_at, root_at
 from ._target import Target, TargetPlaces
 
 Array = np.ndarray[Any, Any]
 UM = 1e-3  # mm
 LEFT = 1e-8  # mm that Newton may leave
+FOLDING = 0.1  # of the mean point's places per parameters: nearer to undercut, nothing counts
+ROOT_SPREAD = 0.01  # mm
+CORNER_SPREAD = 0.1  # mm, of one corner of a slot that one cutter cuts
 ROOT_PLACES = 3  # toe, mean point, heel
-FOLDING = 0.1  # of the mean point's (z, rho) per (s, roll): nearer to where the flank folds, nothing counts
-BRANCHES = (1.0, -1.0)  # roots of the meshing condition
-
-
-@dataclass(frozen=True)
-class Wish:
-    """A value that an entry of the vector should keep near, and how far it may stray (mm, rad)."""
-
-    value: float
-    spread: float
+ROOT_ROLLS = (0.0, -0.25, 0.25)  # rad about the flank's roll, to look for the root from
+EDGE_SPREAD = 0.02  # mm, by which a place may fall short of the edge that is kept for the arc
+FAR = 5.0  # mm in the median off the conjugate: a start that met another sheet
 
 
 @dataclass(frozen=True)
@@ -42,13 +39,15 @@ class Seen:
 
     residual: Array
     jacobian: Array  # (rows, entries of the vector)
-    memory: tuple[Array, Array, Array]
+    memory: tuple[Array, ...]
     ease_off: Array  # (n,) mm
+    turn: float  # rad, from the conjugate to the flank at the middle, about the axis
+    turn_slopes: Array  # its derivatives by every entry
 
 
 @dataclass(frozen=True)
 class PinionModel:
-    """A pinion flank to be fitted: its conjugate, what is asked, and which root and blade cut it."""
+    """A pinion flank to be fitted: its conjugate and what is asked."""
 
     side: Side
     cone: PitchCone
@@ -58,12 +57,10 @@ class PinionModel:
     root_distance: Array  # S where the root is looked at, mm
     root_height: Array  # H wanted there
     root_spread: float  # how far it may stray, mm
-    branch: float
+    least_edge: float  # mm along the blade from the tips, which its arc takes
     outward: float
     reference: float  # height of a curved blade's angle above the tips, mm
-    root_branch: float
-    lead: Array  # (n,) edge parameters to start from
-    roll: Array
+    start_memory: tuple[Array, ...]  # s and both turns of the flank (n,), both of the root
 
     @property
     def blade_side(self) -> float:
@@ -71,40 +68,52 @@ class PinionModel:
         return 1.0 if self.side == "concave" else -1.0
 
     @property
-    def start_memory(self) -> tuple[Array, Array, Array]:
-        return self.lead, self.roll, np.zeros(ROOT_PLACES)
+    def count(self) -> int:
+        """Rows of the ease-off; those of the root follow."""
+        return int(self.there.sum())
 
-    def look(
-        self, vector: Array, wishes: Mapping[str, Wish], memory: tuple[Array, Array, Array]
-    ) -> Seen | None:
+    def look(self, vector: Array, memory: tuple[Array, ...]) -> Seen | None:
         """Residuals and Jacobian at a vector; None where the flank or its root cannot be found."""
-        s, roll, root_roll = memory
         c, side = self.conjugate, self.blade_side
-        got = flank_at(vector, self.branch, self.outward, side, self.reference, c.z, c.rho, s, roll)
-        s, roll, angle, left, lever = got[:5]
+        z, rho = (np.where(self.there, v, v[c.middle]) for v in (c.z, c.rho))
+        start = (np.where(self.there, v, v[c.middle]) for v in memory[:3])
+        got = flank_at(vector, self.outward, side, self.reference, z, rho, *start)
+        s, theta, phi, angle, left, lever = got[:6]
         if not np.all(left[self.there] < LEFT):
             return None
-        root = root_at(vector, self.root_branch, self.cone, side, self.root_distance, root_roll)
-        if not np.all(root[2] < LEFT):
+        root = root_at(vector, self.cone, side, self.root_distance, *memory[3:])
+        if not np.all(root[3] < LEFT):
             return None
-        off, turned = angle - c.angle, got[6:] / lever
+        half = 7 + len(vector)
+        off, turned = angle - c.angle, got[7:half] / lever
         ease_off = -(off - off[c.middle]) * c.lever
         slopes = -(turned - turned[:, c.middle : c.middle + 1]) * c.lever
         wanted = self.wanted - self.wanted[c.middle]
-        rows = [
-            (ease_off - wanted)[self.there] / UM,
-            (root[1] - self.root_height) / self.root_spread,
-        ]
-        lines = [slopes[:, self.there].T / UM, (root[3:] / self.root_spread).T]
-        for name, wish in wishes.items():
-            rows.append(np.array([(vector[INDEX[name]] - wish.value) / wish.spread]))
-            line = np.zeros((1, len(NAMES)))
-            line[0, INDEX[name]] = 1.0 / wish.spread
-            lines.append(line)
-        residual, jacobian = np.concatenate(rows), np.concatenate(lines)
+        short = np.where(self.there, np.maximum(self.least_edge - s, 0.0), 0.0) / EDGE_SPREAD
+        by_edge = np.where(short > 0.0, -got[half:] / EDGE_SPREAD, 0.0)
+        residual = np.concatenate(
+            [
+                (ease_off - wanted)[self.there] / UM,
+                (root[2] - self.root_height) / self.root_spread,
+                short[self.there],
+            ]
+        )
+        jacobian = np.concatenate(
+            [
+                slopes[:, self.there].T / UM,
+                (root[4:] / self.root_spread).T,
+                by_edge[:, self.there].T,
+            ]
+        )
         if not (np.isfinite(residual).all() and np.isfinite(jacobian).all()):
             return None
-        return Seen(residual, jacobian, (s, roll, root[0]), ease_off)
+        memory = (s, theta, phi, root[0], root[1])
+        turn, turn_slopes = float(off[c.middle]), turned[:, c.middle]
+        return Seen(residual, jacobian, memory, ease_off, turn, turn_slopes)
+
+    def asked(self, target: Target, blank: PairBlank) -> PinionModel:
+        """The same flank with another target."""
+        return replace(self, wanted=target.at(target_places(self.conjugate, blank)))
 
 
 def target_places(conjugate: Conjugate, blank: PairBlank) -> TargetPlaces:
@@ -129,52 +138,71 @@ def pinion_model(
     blank: PairBlank,
     cone: PitchCone,
     vector: Array,
-    lead: Array,
-    roll: Array,
+    start: Places,
     target: Target,
-    root_spread: float,
-) -> PinionModel:
-    """The model of a pinion flank at a start; ``lead`` and ``roll`` (n,) are where Newton begins."""
+    least_edge: float,
+    root_spread: float = ROOT_SPREAD,
+) -> PinionModel | None:
+    """The model of a pinion flank at a start; None where the start does not reach the mean point.
+
+    ``start`` holds edge parameter and both turns from which Newton begins, (n,) each; ``least_edge`` is what
+    the arc at the tips takes of the blade, mm.
+    """
     own, c = blank.pinion, conjugate
     outward, side_sign = (-1.0 if side == "concave" else 1.0), (1.0 if side == "concave" else -1.0)
-    places = target_places(c, blank)
-    distance = np.array([own.inner_cone_distance, own.mean_cone_distance, own.outer_cone_distance])
-    looks = [
-        flank_at(vector, trial, outward, side_sign, 0.0, c.z, c.rho, lead, roll)
-        for trial in BRANCHES
-    ]
-    branch = int(np.argmin([_misfit(got, c) for got in looks]))
-    got = looks[branch]
+    got = flank_at(vector, outward, side_sign, 0.0, c.z, c.rho, *start)
+    found = (got[4] < LEFT) & c.there
+    if not found[c.middle]:
+        return None
+    off = got[3] - c.angle
+    off = np.abs(off - off[c.middle]) * np.abs(c.lever)
+    if float(np.median(off[found])) > FAR:
+        return None
     # a left-hand member turns its concave flanks to falling angles
-    if got[4][c.middle] * outward < 0.0:
+    if got[5][c.middle] * outward < 0.0:
         outward = -outward
-    there = c.there & (got[3] < LEFT) & (got[5] / got[5][c.middle] > FOLDING)
-    root = -np.array([own.inner_dedendum, own.mean_dedendum, own.outer_dedendum])
-    roots = [root_at(vector, sign, cone, side_sign, distance, np.zeros(3)) for sign in BRANCHES]
-    off = [float(np.abs(r[1] - root).max() + 1e6 * r[2].max()) for r in roots]
+    there = found & (got[6] / got[6][c.middle] > FOLDING)
+    distance = np.array([own.inner_cone_distance, own.mean_cone_distance, own.outer_cone_distance])
+    height = -np.array([own.inner_dedendum, own.mean_dedendum, own.outer_dedendum])
+    root = _root_start(vector, cone, side_sign, distance, height, c, got[:3], there)
+    if root is None:
+        return None
+    memory = (*got[:3], *root)
+    wanted = target.at(target_places(c, blank))
     return PinionModel(
-        side, cone, c, target.at(places), there, distance, root, root_spread,
-        BRANCHES[branch], outward, 0.0, BRANCHES[int(np.argmin(off))], got[0], got[1],
-    )  # fmt: skip
-
-
-def _misfit(got: Array, conjugate: Conjugate) -> float:
-    """How far a flank stands from a conjugate, mm, turned to meet it at the middle; points lost weigh more."""
-    off = got[2] - conjugate.angle
-    off = np.abs(off - off[conjugate.middle]) * np.abs(conjugate.lever)
-    found = (got[3] < LEFT) & conjugate.there
-    if not found[conjugate.middle]:
-        return np.inf
-    return float(np.median(off[found])) + 10.0 * float((~found & conjugate.there).mean())
-
-
-def lead_of(conjugate: Conjugate, vector: Array) -> Array:
-    """Edge parameters of the conjugate's points on a cutter that stands as the wheel's, mm."""
-    tilt, swivel, q = (vector[INDEX[n]] for n in ("tilt_angle", "swivel_angle", "cradle_angle"))
-    turn, radial = 0.5 * math.pi - q + swivel, vector[INDEX["radial_distance"]]
-    axis = np.array(
-        [math.sin(tilt) * math.cos(turn), math.sin(tilt) * math.sin(turn), math.cos(tilt)]
+        side,
+        cone,
+        c,
+        wanted,
+        there,
+        distance,
+        height,
+        ROOT_SPREAD,
+        least_edge,
+        outward,
+        0.0,
+        memory,
     )
-    centre = np.array([radial * math.cos(q), -radial * math.sin(q), -vector[INDEX["sliding_base"]]])
-    height = -(conjugate.cradle_point - centre) @ axis
-    return height / math.cos(vector[INDEX["blade_angle"]])
+
+
+def _root_start(
+    vector: Array,
+    cone: PitchCone,
+    side: float,
+    distance: Array,
+    height: Array,
+    conjugate: Conjugate,
+    flank: Array,
+    there: Array,
+) -> tuple[Array, Array] | None:
+    """Both turns at which the tips cut the root nearest the blank's, from those of the flank's lowest points."""
+    off = np.hypot(conjugate.distance - distance[:, None], conjugate.height - height[:, None])
+    near = np.argmin(np.where(there, off, np.inf), axis=1)
+    best, least = None, np.inf
+    for more in ROOT_ROLLS:
+        got = root_at(vector, cone, side, distance, flank[1][near], flank[2][near] + more)
+        if np.all(got[3] < LEFT):
+            miss = float(np.abs(got[2] - height).max())
+            if miss < least:
+                best, least = (got[0], got[1]), miss
+    return best

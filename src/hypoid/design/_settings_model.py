@@ -3,13 +3,18 @@
 The vector holds what `NAMES` says, in mm and rad and the signs of the generator chain. Which of its
 entries are free is the caller's affair: the compiled function is one and the same for every method.
 
-A change of any entry moves the flank by n . dr/dp at fixed parameters of the surface, since the
-envelope's own shift is tangential [notes on lin1996: sensitivity is n . dr/dp]: so derivatives are
-exact and need no second solve.
+A place (z, rho) on the flank is found by Newton in all three parameters of the sweep, edge, cutter's turn
+and cradle's turn, with the meshing condition among the equations: it is singular where the flank
+itself is (undercut), and nowhere else, however the lines of contact run.
+
+A change of any entry moves the flank by n . dr/dp at fixed parameters of the sweep, since every one of
+them moves the point within the surface [notes on lin1996: sensitivity is n . dr/dp]: so derivatives are
+exact and need no second solve. How the edge parameter at a place moves follows from the implicit function.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import jax
@@ -17,9 +22,28 @@ import jax.numpy as jnp
 import numpy as np
 
 from hypoid.cutter import EdgePiece, mill_edge
-from hypoid.flank import PitchCone, Surface, axial_radial_angle, newton_pair, position_and_normal
-from hypoid.geometry import Batch, Batched, Scalar, dot
-from hypoid.machine import MachineSettings, Motions, Way, generator
+from hypoid.flank import PitchCone
+from hypoid.geometry import (
+    Batch,
+    Batched,
+    Scalar,
+    Vector,
+    cross,
+    dot,
+    once,
+    sine_cosine,
+    turn_z,
+    unit,
+)
+from hypoid.machine import (
+    MachineSettings,
+    Motions,
+    Placed,
+    generator,
+    meshing_function,
+    place,
+    sweep,
+)
 
 SETTINGS = (
     "radial_distance", "cradle_angle", "tilt_angle", "swivel_angle", "blank_offset",
@@ -39,7 +63,9 @@ INDEX = {name: k for k, name in enumerate(NAMES)}
 ANGLES = frozenset(
     name for name in NAMES if name.rsplit("_", 1)[0] in ("tilt_angle", "swivel_angle", "machine_root_angle")
 ) | {"cradle_angle", "tilt_angle", "swivel_angle", "machine_root_angle", "blade_angle"}  # fmt: skip
-NEWTON = 20
+NEWTON = 30
+ARRIVED = 1e-11  # mm
+LIMITS = (1.0, 0.05, 0.05)  # of one Newton step in edge (mm), cutter's and cradle's turn (rad)
 
 
 def vector_of(settings: MachineSettings, blade: dict[str, float]) -> np.ndarray:
@@ -82,9 +108,92 @@ def edge_of(vector: Any, side: Scalar, reference: Scalar) -> EdgePiece:
     return mill_edge(radius, angle, bend, side=side, reference_height=reference)
 
 
-def _surface(vector: Any, branch: Scalar, outward: Scalar) -> Surface:
-    way: Way = "cutter"
-    return Surface(generator(settings_of(vector), axes_move=True), branch, outward, way)
+Turns = tuple[Batch, Batch, Batch]  # edge parameter (mm), cutter's turn and cradle's turn (rad)
+
+
+def _placed(vector: Any, edge: EdgePiece, at: Turns) -> Placed:
+    """Points of the sweep before the work's own turn."""
+    gen = generator(settings_of(vector), axes_move=True)
+    s, theta, phi = at
+    return place(gen, sweep(gen, edge, s, theta), theta, phi)
+
+
+def _met(vector: Any, edge: EdgePiece, at: Turns) -> tuple[Batch, Batch, Batch, Batch]:
+    """Meshing condition (mm per rad of the cradle, square to the flank), z, rho and angle."""
+    gen = generator(settings_of(vector), axes_move=True)
+    s, theta, phi = at
+    swept = sweep(gen, edge, s, theta)
+    rate, normal = meshing_function(gen, swept, phi)
+    x, y, z = (there := place(gen, swept, theta, phi)).point
+    rate = rate / jnp.sqrt(dot(normal, normal))
+    return rate, z, jnp.sqrt(x * x + y * y), jnp.arctan2(y, x) - there.turn
+
+
+def _position(vector: Any, edge: EdgePiece, at: Turns) -> Vector:
+    there = _placed(vector, edge, at)
+    sine, cosine = sine_cosine(-there.turn)
+    return turn_z(cosine, sine, there.point)
+
+
+def _position_and_normal(
+    vector: Any, edge: EdgePiece, at: Turns, outward: Scalar
+) -> tuple[Vector, Vector]:
+    """Points (mm) and unit normals out of the tooth, left-hand member's frame."""
+    there = _placed(vector, edge, at)
+    sine, cosine = sine_cosine(-there.turn)
+    x, y, z = unit(there.normal)
+    normal = (outward * x, outward * y, outward * z)
+    return turn_z(cosine, sine, there.point), turn_z(cosine, sine, normal)
+
+
+def _newton(
+    function: Callable[[Turns], tuple[Batch, ...]], start: Turns
+) -> tuple[Turns, tuple[Batch, ...], Batch, tuple[Batch, ...]]:
+    """Newton towards the zero of a function's first three values, side by side, with limited steps.
+
+    Returns where it ended, all values, the determinant of the derivatives there, and the first unknown's
+    derivatives by the three values.
+    """
+
+    def look(at: Turns) -> tuple[tuple[Batch, ...], Any, Batch, Any]:
+        directions = jnp.eye(3)[:, :, None] * jnp.ones_like(at[0])
+
+        def push(direction: Any) -> Any:
+            return jax.jvp(function, (at,), ((direction[0], direction[1], direction[2]),))
+
+        values, slopes = jax.vmap(push, out_axes=(None, 0))(directions)
+        f, g, h = once((slopes[0], slopes[1], slopes[2]))
+        determinant = dot(f, cross(g, h))
+        inverse = [
+            tuple(c / determinant for c in v) for v in (cross(g, h), cross(h, f), cross(f, g))
+        ]
+        step = [
+            values[0] * a + values[1] * b + values[2] * c for a, b, c in zip(*inverse, strict=True)
+        ]
+        size = jnp.max(jnp.stack([jnp.abs(d) / n for d, n in zip(step, LIMITS, strict=True)]), 0)
+        share = jnp.where(jnp.isfinite(size), 1.0 / jnp.maximum(1.0, size), 0.0)
+        step = tuple(share * jnp.nan_to_num(d) for d in step)
+        return values, step, determinant, tuple(row[0] for row in inverse)
+
+    def left(values: tuple[Batch, ...]) -> Batch:
+        return jnp.abs(values[0]) + jnp.abs(values[1]) + jnp.abs(values[2])
+
+    def go_on(state: Any) -> Any:
+        count, _, _, values, *_ = state
+        return (count < NEWTON) & jnp.any(left(values) > ARRIVED)
+
+    def again(state: Any) -> Any:
+        count, at, step, *_ = state
+        at = tuple(a - d for a, d in zip(at, step, strict=True))
+        values, step, *slopes = look(at)
+        return count + 1, at, step, values, *slopes
+
+    nowhere = jnp.full_like(start[0], jnp.inf)
+    zero = jnp.zeros_like(nowhere)
+    count = len(jax.eval_shape(function, start))
+    state = (0, start, (zero,) * 3, (nowhere,) * count, zero, (zero,) * 3)
+    _, at, _, values, determinant, first = jax.lax.while_loop(go_on, again, state)
+    return at, values, determinant, first
 
 
 def _slopes(point_of: Any, vector: Any, normal: Any) -> Any:
@@ -100,80 +209,70 @@ def _slopes(point_of: Any, vector: Any, normal: Any) -> Any:
 
 def _flank(
     vector: Any,
-    branch: Scalar,
     outward: Scalar,
     side: Scalar,
     reference: Scalar,
     z: Batch,
     rho: Batch,
     s: Batch,
-    turn: Batch,
+    theta: Batch,
+    phi: Batch,
 ) -> tuple[Batch, ...]:
-    """s, turn, angle, what is left (mm), lever, sense, and n . dr/dp of the flank at places (z, rho)."""
+    """s, both turns, angle, what is left (mm), lever and sense of the flank at (z, rho); by every entry
+    n . dr/dp, and then ds/dp.
+    """
 
-    def place(a: Batch, b: Batch) -> tuple[Batch, ...]:
-        surface, edge = _surface(vector, branch, outward), edge_of(vector, side, reference)
-        at_z, at_rho, angle = axial_radial_angle(surface, edge, a, b)
-        return at_z - z, at_rho - rho, angle
+    def place_at(at: Turns) -> tuple[Batch, ...]:
+        rate, at_z, at_rho, angle = _met(vector, edge_of(vector, side, reference), at)
+        return at_z - z, at_rho - rho, rate, angle
 
-    (s, turn), (f, g, angle), j = newton_pair(place, (s, turn), (1.0, 0.03), NEWTON)
-
-    def point(p: Any) -> Any:
-        surface, edge = _surface(p, branch, outward), edge_of(p, side, reference)
-        return position_and_normal(surface, edge, s, turn)
-
-    position, normal = point(vector)
+    at, (f, g, rate, angle), sense, first = _newton(place_at, (s, theta, phi))
+    edge = edge_of(vector, side, reference)
+    position, normal = once(_position_and_normal(vector, edge, at, outward))
     lever = position[0] * normal[1] - position[1] * normal[0]
-    slopes = _slopes(lambda p: point(p)[0], vector, normal)
-    return s, turn, angle, jnp.hypot(f, g), lever, j[0] * j[3] - j[1] * j[2], *slopes
+    radial = (position[0] * normal[0] + position[1] * normal[1]) / rho
+
+    def by(direction: Any) -> tuple[Batch, Batch]:
+        def met(p: Any) -> tuple[Batch, ...]:
+            return _met(p, edge_of(p, side, reference), at)
+
+        rate, at_z, at_rho, angle = jax.jvp(met, (vector,), (direction,))[1]
+        moved = normal[2] * at_z + radial * at_rho + lever * angle
+        return moved, -(first[0] * at_z + first[1] * at_rho + first[2] * rate)
+
+    slopes, along = jax.vmap(by)(jnp.eye(vector.shape[0]))
+    left = jnp.sqrt(f * f + g * g + rate * rate)
+    return *at, angle, left, lever, sense, *slopes, *along
 
 
 def _root(
-    vector: Any,
-    branch: Scalar,
-    cone: PitchCone,
-    side: Scalar,
-    distance: Batch,
-    turn: Batch,
+    vector: Any, cone: PitchCone, side: Scalar, distance: Batch, theta: Batch, phi: Batch
 ) -> tuple[Batch, ...]:
-    """Height of the root that the blade's tips cut at cone distances S, mm, and dH/dp.
+    """Both turns, height of the root that the blade's tips cut at cone distances S, mm, and dH/dp.
 
     The envelope of the plane of the tips along the circle of the sharp corner.
     """
-    s = jnp.zeros_like(distance)
 
     def tip(p: Any) -> EdgePiece:
         radius = p[INDEX["point_radius"]]
         zero, one = 0.0 * radius, 1.0 + 0.0 * radius
-        return EdgePiece(
-            (radius, zero, zero),
-            (side * one, zero, zero),
-            (zero, zero, one),
-            zero,
-            zero,
-            zero,
-            zero,
-            zero,
-        )
+        along, metal = (side * one, zero, zero), (zero, zero, one)
+        return EdgePiece((radius, zero, zero), along, metal, zero, zero, zero, zero, zero)
 
-    def place(a: Batch, b: Batch) -> tuple[Batch, ...]:
-        surface = _surface(vector, branch, 1.0)
-        z, rho, _ = axial_radial_angle(surface, tip(vector), a, b)
+    def place_at(at: Turns) -> tuple[Batch, ...]:
+        rate, z, rho, _ = _met(vector, tip(vector), at)
         reached, height = cone.cone_distance_height(z, rho)
-        return a, reached - distance, height
+        return at[0], reached - distance, rate, height
 
-    (s, turn), (_, left, height), _ = newton_pair(place, (s, turn), (1.0, 0.03), NEWTON)
-
-    def point(p: Any) -> Any:
-        return position_and_normal(_surface(p, branch, 1.0), tip(p), s, turn)
-
-    position, normal = point(vector)
-    rho = jnp.hypot(position[0], position[1])
-    radial = (position[0] * normal[0] + position[1] * normal[1]) / rho
+    start = (jnp.zeros_like(distance), theta, phi)
+    at, (_, left, rate, height), *_ = _newton(place_at, start)
+    position, normal = _position_and_normal(vector, tip(vector), at, 1.0)
+    radius = jnp.hypot(position[0], position[1])
+    radial = (position[0] * normal[0] + position[1] * normal[1]) / radius
     up = radial * cone.cosine - normal[2] * cone.sine
-    slopes = _slopes(lambda p: point(p)[0], vector, normal)
-    return turn, height, jnp.abs(left), *(slope / up for slope in slopes)
+    slopes = _slopes(lambda p: _position(p, tip(p), at), vector, normal)
+    return at[1], at[2], height, jnp.hypot(left, rate), *(slope / up for slope in slopes)
 
 
-flank_at = Batched(_flank, parameters=5, block=256)
-root_at = Batched(_root, parameters=4, block=16)
+flank_at = Batched(_flank, parameters=4, block=32, most=96)
+root_at = Batched(_root, parameters=3, block=8, most=8)

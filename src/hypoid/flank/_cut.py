@@ -55,11 +55,17 @@ def cut_flank(
     place = Surface(generator(settings), 1.0, 1.0, way)
     asked = Flank(member, side, settings, pieces, place, cone, mirrored, 0.0, toe, heel, tip, root)
     flank = _rooted(asked, way, theta_start)
-    if way == "cutter" and not np.isfinite(flank.charts["flank"].error):
+    if way == "cutter" and not flank.generated:
         other = _rooted(asked, "cradle" if settings.plain_roll else "newton", theta_start)
-        if np.isfinite(other.charts["flank"].error):
+        if _sounder(other) > _sounder(flank):
             return other
     return flank
+
+
+def _sounder(flank: Flank) -> tuple[bool, float, int]:
+    """Ways compared: a flank chart at all, how much of the edge it has, and how many pieces are whole."""
+    chart = flank.charts["flank"]
+    return bool(np.isfinite(chart.error)), -float(chart.lifted), -len(flank.cut_away)
 
 
 def _rooted(asked: Flank, way: Way, theta_start: float | None) -> Flank:
