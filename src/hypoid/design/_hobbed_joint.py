@@ -1,0 +1,238 @@
+"""Residuals of both flanks of a face-hobbed pinion, cut in one setting-up, with their exact Jacobian.
+
+Settings and motions are common, radius, angle and curvature of each blade its flank's own. Rows: the
+ease-off of either flank against its target (um), the root that either blade's corner cuts against the
+blank's root line, the tooth's thickness at the mean point, and wishes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import cos, pi
+from typing import Any
+
+import numpy as np
+
+from hypoid.blank import PairBlank
+from hypoid.flank import SIDES, Flank, PitchCone, Side
+
+from ._conjugate import Conjugate
+from ._hobbed_cut import stick
+from ._hobbed_model import FIXED, FLANK_AT, ROOT_AT, Stick
+from ._hobbed_start import Start
+from ._pinion_model import FOLDING, LEFT, ROOT_PLACES, UM, Wish, target_places
+from ._settings_model import BLADE, INDEX, NAMES
+from ._target import Target
+
+Array = np.ndarray[Any, Any]
+BLADES = {"point_radius": "blade_radius", "blade_angle": "blade_angle", "blade_curvature": "blade_curvature"}
+COMMON = tuple(name for name in NAMES if name not in BLADE)
+JOINT = (*COMMON, *(f"{side}.{BLADES[name]}" for side in SIDES for name in BLADE))
+PLACE = {name: k for k, name in enumerate(JOINT)}
+# columns of the joint vector that make either flank's own
+COLUMNS = {
+    side: np.array([PLACE[n] for n in COMMON] + [PLACE[f"{side}.{BLADES[n]}"] for n in BLADE])
+    for side in SIDES
+}
+assert NAMES[-3:] == BLADE
+assert [INDEX[name] for name in COMMON] == list(range(len(COMMON)))
+THICKNESS_SPREAD = 1e-3  # mm: the slot's width comes before the last um of the ease-off
+SIDE_ROOTS = 2.0**0.5  # both corners are looked at: together they weigh as one
+
+Memory = Mapping[Side, tuple[Array, Array, Array]]
+
+
+@dataclass(frozen=True)
+class SideModel:
+    """One flank of the pinion: what is asked of it, and which roots its edge and corner mesh at."""
+
+    side: Side
+    conjugate: Conjugate
+    wanted: Array  # (n,) mm, the target ease-off
+    there: Array  # (n,) bool: points that count
+    stick: Stick
+    branch: float
+    root_branch: float
+    outward: float
+
+
+@dataclass(frozen=True)
+class JointSeen:
+    """One look at both flanks."""
+
+    residual: Array
+    jacobian: Array  # (rows, entries of the joint vector)
+    memory: Memory
+    misfit: Mapping[Side, Array]  # (n,) mm, ease-off less its target, all points
+    root_error: Mapping[Side, Array]  # (3,) mm
+    thickness: float  # normal, at the mean point, mm
+
+
+@dataclass(frozen=True)
+class JointModel:
+    """A face-hobbed pinion to be fitted."""
+
+    cone: PitchCone
+    sides: Mapping[Side, SideModel]
+    mean: tuple[float, float]  # (z, rho) of the mean point
+    root_distance: Array
+    root_height: Array
+    root_spread: float
+    teeth: int
+    across: float  # turns an angle about the axis into a normal thickness at the mean point, mm
+    thickness: float  # wanted there, mm
+    weigh_thickness: bool  # not where the blades' spacing makes it
+    start: Memory
+
+    def look(
+        self, vector: Array, wishes: Mapping[str, Wish], memory: Memory, *, plain: bool
+    ) -> JointSeen | None:
+        """Residuals and Jacobian at a joint vector; None where a flank or its root cannot be found.
+
+        ``plain`` says that no motion but a plain roll is there: quicker.
+        """
+        way = "cradle" if plain else "newton"
+        rows: list[Array] = []
+        lines: list[Array] = []
+        kept: dict[Side, tuple[Array, Array, Array]] = {}
+        misfit: dict[Side, Array] = {}
+        off_root: dict[Side, Array] = {}
+        at_mean: dict[Side, tuple[float, Array]] = {}
+        for side, model in self.sides.items():
+            c, columns = model.conjugate, COLUMNS[side]
+            own, (s, turn, root_turn) = vector[columns], memory[side]
+            z, rho = np.append(c.z, self.mean[0]), np.append(c.rho, self.mean[1])
+            got = FLANK_AT[way](own, model.stick, model.branch, model.outward, z, rho, s, turn)
+            counts = np.append(model.there, True)
+            if not np.all(got[3][counts] < LEFT):
+                return None
+            root = ROOT_AT[way](
+                own, model.stick, model.root_branch, self.cone, self.root_distance, root_turn
+            )
+            if not np.all(root[2] < LEFT):
+                return None
+            kept[side] = got[0], got[1], root[0]
+            angle, turned = got[2], got[FIXED:] / got[4]
+            at_mean[side] = float(angle[-1]), turned[:, -1]
+            off = angle[:-1] - c.angle
+            ease_off = -(off - off[c.middle]) * c.lever
+            slopes = -(turned[:, :-1] - turned[:, c.middle : c.middle + 1]) * c.lever
+            misfit[side] = ease_off - (model.wanted - model.wanted[c.middle])
+            off_root[side] = root[1] - self.root_height
+            rows += [
+                misfit[side][model.there] / UM,
+                off_root[side] / (SIDE_ROOTS * self.root_spread),
+            ]
+            lines += [
+                _spread(slopes[:, model.there].T / UM, columns),
+                _spread((root[3:] / (SIDE_ROOTS * self.root_spread)).T, columns),
+            ]
+        turn = at_mean["convex"][0] - at_mean["concave"][0]
+        thickness = float(np.mod(turn, 2.0 * pi / self.teeth)) * self.across
+        if self.weigh_thickness:
+            rows.append(np.array([(thickness - self.thickness) / THICKNESS_SPREAD]))
+            line = np.zeros((1, len(JOINT)))
+            for side, sign in (("convex", 1.0), ("concave", -1.0)):
+                line[0, COLUMNS[side]] += sign * at_mean[side][1] * self.across / THICKNESS_SPREAD
+            lines.append(line)
+        for name, wish in wishes.items():
+            rows.append(np.array([(vector[PLACE[name]] - wish.value) / wish.spread]))
+            line = np.zeros((1, len(JOINT)))
+            line[0, PLACE[name]] = 1.0 / wish.spread
+            lines.append(line)
+        residual, jacobian = np.concatenate(rows), np.concatenate(lines)
+        if not (np.isfinite(residual).all() and np.isfinite(jacobian).all()):
+            return None
+        return JointSeen(residual, jacobian, kept, misfit, off_root, thickness)
+
+
+def _spread(rows: Array, columns: Array) -> Array:
+    """Derivatives by a flank's vector as those by the joint vector."""
+    wide = np.zeros((len(rows), len(JOINT)))
+    wide[:, columns] = rows
+    return wide
+
+
+def joint_vector(start: Start) -> Array:
+    """The joint vector of a start."""
+    from ._settings_model import vector_of
+
+    bend = start.plan.curvature
+    blades = [
+        dict(zip(BLADE, (start.cut.radii[i], start.cut.angles[i], bend), strict=True))
+        for i in (0, 1)
+    ]
+    first, second = (vector_of(start.cut.settings, blade) for blade in blades)
+    return np.concatenate([first, second[-3:]])
+
+
+def joint_model(
+    start: Start,
+    conjugates: Mapping[Side, Conjugate],
+    targets: Mapping[Side, Target],
+    blank: PairBlank,
+    cone: PitchCone,
+    thickness: float,
+    root_spread: float,
+    *,
+    equal_spacing: bool,
+) -> JointModel | None:
+    """The model of a pinion at a start; None where its flanks' roots are not found."""
+    own = blank.pinion
+    distance = np.array([own.inner_cone_distance, own.mean_cone_distance, own.outer_cone_distance])
+    root = -np.array([own.inner_dedendum, own.mean_dedendum, own.outer_dedendum])
+    vector = joint_vector(start)
+    mean = own.position(own.mean_cone_distance, 0.0)
+    sides: dict[Side, SideModel] = {}
+    memory: dict[Side, tuple[Array, Array, Array]] = {}
+    for side in SIDES:
+        flank, c = start.flanks[side], conjugates[side]
+        sign = 1.0 if side == "concave" else -1.0
+        held = stick(start.plan, own.teeth, start.cut.height, sign)
+        s, turn = _on_flank(flank, np.append(c.distance, own.mean_cone_distance), np.append(c.height, 0.0))
+        branch, outward = float(flank.surface.branch), float(flank.surface.outward)
+        got = FLANK_AT["cradle"](
+            vector[COLUMNS[side]],
+            *(held, branch, outward, np.append(c.z, mean[0]), np.append(c.rho, mean[1]), s, turn),
+        )
+        sound = (got[3] < LEFT) & (got[5] / got[5][-1] > FOLDING)
+        if not sound[-1]:
+            return None
+        turns = np.full(ROOT_PLACES, got[1][-1])
+        roots = [
+            ROOT_AT["cradle"](vector[COLUMNS[side]], held, b, cone, distance, turns)
+            for b in (branch, -branch)
+        ]
+        off = [float(np.abs(r[1] - root).max() + 1e6 * r[2].max()) for r in roots]
+        k = int(np.argmin(off))
+        if not np.all(roots[k][2] < LEFT):
+            return None
+        there = c.there & sound[:-1]
+        wanted = targets[side].at(target_places(c, blank))
+        sides[side] = SideModel(
+            side, c, wanted, there, held, branch, (branch, -branch)[k], outward
+        )
+        memory[side] = got[0], got[1], roots[k][0]
+    return JointModel(
+        cone,
+        sides,
+        mean,
+        distance,
+        root,
+        root_spread,
+        own.teeth,
+        0.5 * own.mean_pitch_diameter * cos(own.mean_spiral_angle),
+        thickness,
+        equal_spacing,
+        memory,
+    )
+
+
+def _on_flank(flank: Flank, distance: Array, height: Array) -> tuple[Array, Array]:
+    """Edge parameter and turn to start from at places (S, H): where charts do not reach, their middle."""
+    s, turn, _ = flank.parameters(distance, height)
+    lost = ~np.isfinite(s)
+    s, turn = s.copy(), turn.copy()
+    s[lost], turn[lost] = np.nanmedian(s), np.nanmedian(turn)
+    return s, turn
