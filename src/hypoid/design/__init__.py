@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 from ._blank import Spec as Spec
 from ._blank import sheet_blank as sheet_blank
 from ._blank import spec_blank as spec_blank
+from ._hobbed_request import HobbedRequest as HobbedRequest
+from ._hobbed_request import StickGrind as StickGrind
 from ._milled_request import MilledRequest as MilledRequest
 from ._milled_request import PinionMethod as PinionMethod
 from ._milled_request import WheelMethod as WheelMethod
@@ -37,6 +39,9 @@ if TYPE_CHECKING:
     from ._dialled import dialled as dialled
     from ._dialled import machine_named as machine_named
     from ._exact_face_hobbed import exact_settings as exact_settings
+    from ._hobbed_design import HobbedDesign as HobbedDesign
+    from ._hobbed_design import design_hobbed as design_hobbed
+    from ._hobbed_fit import HobbedFit as HobbedFit
     from ._milled_design import MilledDesign as MilledDesign
     from ._milled_design import design_milled as design_milled
     from ._pinion_fit import FlankFit as FlankFit
@@ -49,6 +54,9 @@ _LAZY = {
     "machine_named": "_dialled",
     "exact_settings": "_exact_face_hobbed",
     "FlankFit": "_pinion_fit",
+    "HobbedDesign": "_hobbed_design",
+    "design_hobbed": "_hobbed_design",
+    "HobbedFit": "_hobbed_fit",
     "MilledDesign": "_milled_design",
     "design_milled": "_milled_design",
 }

@@ -19,7 +19,7 @@ import numpy as np
 from hypoid.blank import MemberBlank
 from hypoid.machine import MachineSettings
 
-from ._hobbed_model import FLANK_AT, Stick
+from ._hobbed_model import FORMED_AT, ROLLED_AT, Stick
 from ._settings_model import vector_of
 
 PASSES, SETTLED = 30, 1e-11
@@ -52,7 +52,6 @@ class HobbedCut:
     angles: tuple[float, float]  # blade angles
     height: float  # of P above the tips
     turns: tuple[float, float]  # cutter's turn where either blade passes the mean point
-    branch: float
     miss: float  # greatest angle or width off the blank's, rad or mm
 
 
@@ -113,8 +112,7 @@ def hobbed_cut(
     x = np.array([first, second, atan(tan(beta) / cos(taper)), slot / r_m])
     even = plan.spacing * plan.radius * sin(plan.eccentric_angle)
     sticks = [stick(plan, blank.teeth, height, side) for side in (1.0, -1.0)]
-    way = "cradle" if generated else "form"
-    branches = [1.0, -1.0] if generated else [1.0]
+    flank_at = ROLLED_AT if generated else FORMED_AT
     turns: list[float] | None = None
     made: HobbedCut | None = None
     for _ in range(PASSES):
@@ -136,7 +134,7 @@ def hobbed_cut(
         if turns is None:
             start = float(x[2]) - nu - q
             turns = [start, start - plan.spacing]
-        seen: list[tuple[np.ndarray, float]] = []
+        seen: list[np.ndarray] = []
         for i in (0, 1):
             blade = {
                 "point_radius": radii[i],
@@ -144,18 +142,12 @@ def hobbed_cut(
                 "blade_curvature": plan.curvature,
             }
             vector = vector_of(settings, blade)
-            found = [
-                (FLANK_AT[way](vector, sticks[i], b, 1.0, [z], [rho], [0.0], [turns[i]])[:, 0], b)
-                for b in branches
-            ]
-            found = [(f, b) for f, b in found if f[3] < MET]
-            if not found:
-                return None
-            seen.append(min(found, key=lambda pair: abs(pair[0][6])))
-        branches = [seen[0][1]] if seen[0][1] == seen[1][1] else branches
-        turns = [float(f[1]) for f, _ in seen]
-        at = [_angles(f, blank.pitch_angle) for f, _ in seen]
-        thick = float(np.mod(seen[1][0][2] - seen[0][0][2], 2.0 * pi / blank.teeth))
+            seen.append(flank_at(vector, sticks[i], [z], [rho], [0.0], [turns[i]], [0.0])[:, 0])
+        if not all(found[4] < MET for found in seen):
+            return None
+        turns = [float(found[1]) for found in seen]
+        at = [_angles(found, blank.pitch_angle) for found in seen]
+        thick = float(np.mod(seen[1][3] - seen[0][3], 2.0 * pi / blank.teeth))
         got = np.array(
             [
                 at[0][0],
@@ -171,7 +163,6 @@ def hobbed_cut(
             (float(x[0]), float(x[1])),
             height,
             (turns[0], turns[1]),
-            seen[0][1],
             float(np.abs(left).max()),
         )
         if made.miss < SETTLED:

@@ -30,7 +30,7 @@ from ._hobbed_request import HobbedRequest
 from ._hobbed_start import Start, conjugate_start, pinion_thickness, plain_start
 from ._hobbed_wheel import HobbedWheel, head_plan
 from ._milled_wheel import pitch_cone
-from ._pinion_fit import FEWEST, LEADING, ROOT_SPREAD, plain_settings
+from ._pinion_fit import FEWEST, LEADING, plain_settings
 from ._pinion_methods import HEAD, METHODS, step_limits
 from ._pinion_model import UM, Wish
 from ._settings_model import BLADE, MOTIONS, NAMES, ROLL
@@ -152,7 +152,6 @@ def _fitted(
         blank,
         pitch_cone(blank, "pinion"),
         thickness,
-        ROOT_SPREAD,
         equal_spacing=request.equal_spacing,
     )
     if model is None or min(side.there.sum() for side in model.sides.values()) < FEWEST:
@@ -219,9 +218,9 @@ class _Work:
         return own
 
     def look(
-        self, vector: Array, more: Mapping[str, Wish], memory: Memory, plain: bool
+        self, vector: Array, more: Mapping[str, Wish], memory: Memory
     ) -> JointSeen | None:
-        return self.model.look(vector, {**self.wishes, **more}, memory, plain=plain)
+        return self.model.look(vector, {**self.wishes, **more}, memory)
 
     def run(
         self,
@@ -234,7 +233,6 @@ class _Work:
     ) -> tuple[Array, Fit] | None:
         """One stage: these entries free, with these wishes beside the blades'."""
         index = [PLACE[name] for name in free]
-        plain = _is_plain(vector, free)
 
         def full(x: Array) -> Array:
             whole = vector.copy()
@@ -242,7 +240,7 @@ class _Work:
             return whole
 
         def model(x: Array, memory: Any) -> Look | None:
-            seen = self.look(full(x), more, memory, plain)
+            seen = self.look(full(x), more, memory)
             if seen is None:
                 return None
             return Look(seen.residual, seen.jacobian[:, index], seen.memory)
@@ -255,7 +253,7 @@ class _Work:
         self, vector: Array, fit: Fit, free: tuple[str, ...], limits: Mapping[str, float]
     ) -> HobbedFit | None:
         model = self.model
-        seen = self.look(vector, {}, fit.look.memory, _is_plain(vector, ()))
+        seen = self.look(vector, {}, fit.look.memory)
         if seen is None:
             return None
         sides: dict[Side, SideFit] = {}
@@ -288,12 +286,6 @@ class _Work:
             fit=fit,
             helpful=_helpful(model, seen, free, limits),
         )
-
-
-def _is_plain(vector: Array, free: tuple[str, ...]) -> bool:
-    """Whether neither the vector nor what is free moves anything but a plain roll."""
-    moving = (*ROLL, *MOTIONS, "helical_motion", "sliding_base_2", "sliding_base_3")
-    return not any(vector[PLACE[name]] or name in free for name in moving)
 
 
 def _helpful(

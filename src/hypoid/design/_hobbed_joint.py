@@ -15,14 +15,15 @@ from typing import Any
 import numpy as np
 
 from hypoid.blank import PairBlank
-from hypoid.flank import SIDES, Flank, PitchCone, Side
+from hypoid.flank import SIDES, Flank, PitchCone, Side, roots_near
 
 from ._conjugate import Conjugate
 from ._hobbed_cut import stick
-from ._hobbed_model import FIXED, FLANK_AT, ROOT_AT, Stick
+from ._hobbed_model import FIXED, ROLLED_AT, ROOT_AT, Stick
 from ._hobbed_start import Start
 from ._pinion_model import FOLDING, LEFT, ROOT_PLACES, UM, Wish, target_places
 from ._settings_model import BLADE, INDEX, NAMES
+from ._settings_model import vector_of
 from ._target import Target
 
 Array = np.ndarray[Any, Any]
@@ -38,23 +39,25 @@ COLUMNS = {
 assert NAMES[-3:] == BLADE
 assert [INDEX[name] for name in COMMON] == list(range(len(COMMON)))
 THICKNESS_SPREAD = 1e-3  # mm: the slot's width comes before the last um of the ease-off
+ROOT_SPREAD = 0.01  # mm, at the mean point
+ROOT_AT_ENDS = 0.15  # of the clearance: a tilted head of one setting-up cuts no cone
 SIDE_ROOTS = 2.0**0.5  # both corners are looked at: together they weigh as one
 
-Memory = Mapping[Side, tuple[Array, Array, Array]]
+# where Newton starts: s, turn and phi of the flank, turn and phi of the root
+Memory = Mapping[Side, tuple[Array, Array, Array, Array, Array]]
 
 
 @dataclass(frozen=True)
 class SideModel:
-    """One flank of the pinion: what is asked of it, and which roots its edge and corner mesh at."""
+    """One flank of the pinion and what is asked of it."""
 
     side: Side
     conjugate: Conjugate
     wanted: Array  # (n,) mm, the target ease-off
     there: Array  # (n,) bool: points that count
     stick: Stick
-    branch: float
-    root_branch: float
-    outward: float
+    z: Array  # (n + 1,) mm, where the flank is asked for, the mean point last
+    rho: Array
 
 
 @dataclass(frozen=True)
@@ -75,10 +78,9 @@ class JointModel:
 
     cone: PitchCone
     sides: Mapping[Side, SideModel]
-    mean: tuple[float, float]  # (z, rho) of the mean point
     root_distance: Array
     root_height: Array
-    root_spread: float
+    root_spread: Array  # (3,) how far it may stray, mm
     teeth: int
     across: float  # turns an angle about the axis into a normal thickness at the mean point, mm
     thickness: float  # wanted there, mm
@@ -86,47 +88,39 @@ class JointModel:
     start: Memory
 
     def look(
-        self, vector: Array, wishes: Mapping[str, Wish], memory: Memory, *, plain: bool
+        self, vector: Array, wishes: Mapping[str, Wish], memory: Memory
     ) -> JointSeen | None:
-        """Residuals and Jacobian at a joint vector; None where a flank or its root cannot be found.
-
-        ``plain`` says that no motion but a plain roll is there: quicker.
-        """
-        way = "cradle" if plain else "newton"
+        """Residuals and Jacobian at a joint vector; None where a flank or its root cannot be found."""
         rows: list[Array] = []
         lines: list[Array] = []
-        kept: dict[Side, tuple[Array, Array, Array]] = {}
+        kept: dict[Side, tuple[Array, Array, Array, Array, Array]] = {}
         misfit: dict[Side, Array] = {}
         off_root: dict[Side, Array] = {}
         at_mean: dict[Side, tuple[float, Array]] = {}
         for side, model in self.sides.items():
             c, columns = model.conjugate, COLUMNS[side]
-            own, (s, turn, root_turn) = vector[columns], memory[side]
-            z, rho = np.append(c.z, self.mean[0]), np.append(c.rho, self.mean[1])
-            got = FLANK_AT[way](own, model.stick, model.branch, model.outward, z, rho, s, turn)
-            counts = np.append(model.there, True)
-            if not np.all(got[3][counts] < LEFT):
+            own, (*start, root_turn, root_phi) = vector[columns], memory[side]
+            got = ROLLED_AT(own, model.stick, model.z, model.rho, *start)
+            if not np.all(got[4] < LEFT):
                 return None
-            root = ROOT_AT[way](
-                own, model.stick, model.root_branch, self.cone, self.root_distance, root_turn
-            )
-            if not np.all(root[2] < LEFT):
+            root = ROOT_AT(own, model.stick, self.cone, self.root_distance, root_turn, root_phi)
+            if not np.all(root[3] < LEFT):
                 return None
-            kept[side] = got[0], got[1], root[0]
-            angle, turned = got[2], got[FIXED:] / got[4]
+            kept[side] = got[0], got[1], got[2], root[0], root[1]
+            angle, turned = got[3], got[FIXED:] / got[5]
             at_mean[side] = float(angle[-1]), turned[:, -1]
             off = angle[:-1] - c.angle
             ease_off = -(off - off[c.middle]) * c.lever
             slopes = -(turned[:, :-1] - turned[:, c.middle : c.middle + 1]) * c.lever
             misfit[side] = ease_off - (model.wanted - model.wanted[c.middle])
-            off_root[side] = root[1] - self.root_height
+            off_root[side] = root[2] - self.root_height
             rows += [
                 misfit[side][model.there] / UM,
                 off_root[side] / (SIDE_ROOTS * self.root_spread),
             ]
             lines += [
                 _spread(slopes[:, model.there].T / UM, columns),
-                _spread((root[3:] / (SIDE_ROOTS * self.root_spread)).T, columns),
+                _spread((root[4:] / (SIDE_ROOTS * self.root_spread)).T, columns),
             ]
         turn = at_mean["convex"][0] - at_mean["concave"][0]
         thickness = float(np.mod(turn, 2.0 * pi / self.teeth)) * self.across
@@ -156,8 +150,6 @@ def _spread(rows: Array, columns: Array) -> Array:
 
 def joint_vector(start: Start) -> Array:
     """The joint vector of a start."""
-    from ._settings_model import vector_of
-
     bend = start.plan.curvature
     blades = [
         dict(zip(BLADE, (start.cut.radii[i], start.cut.angles[i], bend), strict=True))
@@ -174,7 +166,6 @@ def joint_model(
     blank: PairBlank,
     cone: PitchCone,
     thickness: float,
-    root_spread: float,
     *,
     equal_spacing: bool,
 ) -> JointModel | None:
@@ -182,42 +173,37 @@ def joint_model(
     own = blank.pinion
     distance = np.array([own.inner_cone_distance, own.mean_cone_distance, own.outer_cone_distance])
     root = -np.array([own.inner_dedendum, own.mean_dedendum, own.outer_dedendum])
+    at_ends = max(ROOT_AT_ENDS * (blank.clearance or 0.0), ROOT_SPREAD)
+    root_spread = np.array([at_ends, ROOT_SPREAD, at_ends])
     vector = joint_vector(start)
     mean = own.position(own.mean_cone_distance, 0.0)
     sides: dict[Side, SideModel] = {}
-    memory: dict[Side, tuple[Array, Array, Array]] = {}
+    memory: dict[Side, tuple[Array, Array, Array, Array, Array]] = {}
     for side in SIDES:
         flank, c = start.flanks[side], conjugates[side]
         sign = 1.0 if side == "concave" else -1.0
         held = stick(start.plan, own.teeth, start.cut.height, sign)
-        s, turn = _on_flank(flank, np.append(c.distance, own.mean_cone_distance), np.append(c.height, 0.0))
-        branch, outward = float(flank.surface.branch), float(flank.surface.outward)
-        got = FLANK_AT["cradle"](
-            vector[COLUMNS[side]],
-            *(held, branch, outward, np.append(c.z, mean[0]), np.append(c.rho, mean[1]), s, turn),
-        )
-        sound = (got[3] < LEFT) & (got[5] / got[5][-1] > FOLDING)
+        where = np.append(c.distance, own.mean_cone_distance), np.append(c.height, 0.0)
+        begin = _on_flank(flank, *where)
+        z, rho = np.append(c.z, mean[0]), np.append(c.rho, mean[1])
+        got = ROLLED_AT(vector[COLUMNS[side]], held, z, rho, *begin)
+        sound = (got[4] < LEFT) & (got[6] / got[6][-1] > FOLDING)
         if not sound[-1]:
             return None
-        turns = np.full(ROOT_PLACES, got[1][-1])
-        roots = [
-            ROOT_AT["cradle"](vector[COLUMNS[side]], held, b, cone, distance, turns)
-            for b in (branch, -branch)
-        ]
-        off = [float(np.abs(r[1] - root).max() + 1e6 * r[2].max()) for r in roots]
-        k = int(np.argmin(off))
-        if not np.all(roots[k][2] < LEFT):
+        turns, rolls = (np.full(ROOT_PLACES, got[k][-1]) for k in (1, 2))
+        cut = ROOT_AT(vector[COLUMNS[side]], held, cone, distance, turns, rolls)
+        if not np.all(cut[3] < LEFT):
             return None
         there = c.there & sound[:-1]
         wanted = targets[side].at(target_places(c, blank))
-        sides[side] = SideModel(
-            side, c, wanted, there, held, branch, (branch, -branch)[k], outward
-        )
-        memory[side] = got[0], got[1], roots[k][0]
+        # what does not count is asked for at the mean point, so that Newton always arrives
+        lost = ~np.append(there, True)
+        z[lost], rho[lost], got[:3, lost] = mean[0], mean[1], got[:3, -1:]
+        sides[side] = SideModel(side, c, wanted, there, held, z, rho)
+        memory[side] = got[0], got[1], got[2], cut[0], cut[1]
     return JointModel(
         cone,
         sides,
-        mean,
         distance,
         root,
         root_spread,
@@ -229,10 +215,12 @@ def joint_model(
     )
 
 
-def _on_flank(flank: Flank, distance: Array, height: Array) -> tuple[Array, Array]:
-    """Edge parameter and turn to start from at places (S, H): where charts do not reach, their middle."""
+def _on_flank(flank: Flank, distance: Array, height: Array) -> tuple[Array, Array, Array]:
+    """Edge parameter, turn and cradle angle to start from at places (S, H).
+
+    Where charts do not reach, those of the middle.
+    """
     s, turn, _ = flank.parameters(distance, height)
     lost = ~np.isfinite(s)
-    s, turn = s.copy(), turn.copy()
-    s[lost], turn[lost] = np.nanmedian(s), np.nanmedian(turn)
-    return s, turn
+    s, turn = np.where(lost, np.nanmedian(s), s), np.where(lost, np.nanmedian(turn), turn)
+    return s, turn, roots_near(flank.surface, flank.pieces["flank"], s, turn)[0]

@@ -77,7 +77,7 @@ def conjugate_start(plan: HeadPlan, blank: PairBlank, wheel: HobbedWheel) -> Sta
         sliding_base=-z,
     )
     twin = HobbedCut(
-        made, cut.radii[::-1], cut.angles[::-1], depth, (0.0, 0.0), 1.0, 0.0
+        made, cut.radii[::-1], cut.angles[::-1], depth, (0.0, 0.0), 0.0
     )
     return _cut_start(twin, plan, blank, None)
 

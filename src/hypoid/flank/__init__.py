@@ -25,6 +25,7 @@ from ._envelope import solve_pair as solve_pair
 from ._flank import Flank as Flank
 from ._flank import FlankPoints as FlankPoints
 from ._flank import Side as Side
+from ._locate import roots_near as roots_near
 from ._section import lowest as lowest
 from ._status import PointStatus as PointStatus
 from ._tooth import SIDES as SIDES
