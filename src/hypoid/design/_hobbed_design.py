@@ -150,7 +150,7 @@ def _wheel(request: HobbedRequest, blank: PairBlank, wheel: HobbedWheel) -> Memb
 def _pinion(
     request: HobbedRequest, blank: PairBlank, wheel: HobbedWheel, fit: HobbedFit, edge: float
 ) -> MemberSpec:
-    plan, own = wheel.plan, blank.pinion
+    plan, own, toprem = wheel.plan, blank.pinion, request.grind.pinion_toprem
     dials = _dials(fit.settings, own.pitch_apex_beyond_crossing_point)
     method = SHEET_METHODS[request.pinion_method]
 
@@ -162,6 +162,7 @@ def _pinion(
             edge_radius=edge,
             reference_height=fit.height,
             curve_radius=1.0 / bend if bend else 0.0,
+            toprem=toprem and (*toprem, "along-flank"),
         )
         more = {"blade.profile", "blade.radius"} if request.grind.pinion_curve_radius is None else ()
         return FlankSpec(method, "basic", dials, blade, _AT_FLANK | frozenset(more))

@@ -22,6 +22,7 @@ class StickGrind:
     eccentric_angle: float | None = None  # None: the slope angle of the blank's module
     wheel_curve_radius: float = 0.0  # positive crowns the tooth; 0: straight
     pinion_curve_radius: float | None = 0.0  # None: free, either flank its own
+    pinion_toprem: tuple[float, float] | None = None  # angle, and length along the flank
 
     def eccentric(self, module: float, groups: int, radius: float) -> float:
         """The eccentric angle, rad: blades square to the tooth where none is given."""
