@@ -23,6 +23,7 @@ from ._hobbed_joint import (
     JointModel,
     JointSeen,
     Memory,
+    Wish,
     joint_model,
     joint_vector,
 )
@@ -30,13 +31,14 @@ from ._hobbed_request import HobbedRequest
 from ._hobbed_start import Start, conjugate_start, pinion_thickness, plain_start
 from ._hobbed_wheel import HobbedWheel, head_plan
 from ._milled_wheel import pitch_cone
-from ._pinion_fit import FEWEST, LEADING, plain_settings
 from ._pinion_methods import HEAD, METHODS, step_limits
-from ._pinion_model import UM, Wish
-from ._settings_model import BLADE, MOTIONS, NAMES, ROLL
+from ._pinion_model import UM
+from ._settings_model import BLADE, MOTIONS, NAMES, ROLL, settings_of
 from ._target import Target
 
 Array = np.ndarray[Any, Any]
+FEWEST = 20  # points of a conjugate that a fit needs
+LEADING = math.radians(0.02)  # how firmly tilt is led to zero
 RADIUS_SPREAD = 0.4  # mm that a blade radius may stray from the head's, at the price of 1 um
 ANGLE_SPREAD = math.radians(0.5)
 ADVICE = (*HEAD, *ROLL[:3], "helical_motion", *(f"{side}.blade_curvature" for side in SIDES), *MOTIONS)
@@ -269,9 +271,7 @@ class _Work:
             spacing = plan.spacing + (model.thickness - thickness) / (model.across * ratio)
             thickness = model.thickness
         blades = vector[len(NAMES) - len(BLADE) :].reshape(2, len(BLADE))
-        settings = replace(
-            plain_settings(vector[COLUMNS["concave"]]), roll_to_blade_ratio=ratio
-        )
+        settings = _plain(vector[COLUMNS["concave"]], ratio)
         return HobbedFit(
             settings=settings,
             radii=(float(blades[0, 0]), float(blades[1, 0])),
@@ -286,6 +286,19 @@ class _Work:
             fit=fit,
             helpful=_helpful(model, seen, free, limits),
         )
+
+
+def _plain(vector: Array, ratio: float) -> MachineSettings:
+    """The settings of a flank's vector as plain numbers, with no motion where there is none."""
+    held = settings_of([float(v) for v in vector])
+    moved = held.motions
+    names = type(moved).__dataclass_fields__
+    kept = {n: getattr(moved, n) if any(getattr(moved, n)) else () for n in names}
+    roll = tuple(held.modified_roll)
+    while roll and not roll[-1]:
+        roll = roll[:-1]
+    motions = replace(moved, **kept)
+    return replace(held, roll_to_blade_ratio=ratio, modified_roll=roll, motions=motions)
 
 
 def _helpful(

@@ -21,7 +21,7 @@ from ._conjugate import Conjugate
 from ._hobbed_cut import stick
 from ._hobbed_model import FIXED, ROLLED_AT, ROOT_AT, Stick
 from ._hobbed_start import Start
-from ._pinion_model import FOLDING, LEFT, ROOT_PLACES, UM, Wish, target_places
+from ._pinion_model import FOLDING, LEFT, UM, target_places
 from ._settings_model import BLADE, INDEX, NAMES
 from ._settings_model import vector_of
 from ._target import Target
@@ -38,6 +38,7 @@ COLUMNS = {
 }
 assert NAMES[-3:] == BLADE
 assert [INDEX[name] for name in COMMON] == list(range(len(COMMON)))
+ROOT_PLACES = 3  # toe, mean point, heel
 THICKNESS_SPREAD = 1e-3  # mm: the slot's width comes before the last um of the ease-off
 ROOT_SPREAD = 0.01  # mm, at the mean point
 ROOT_AT_ENDS = 0.15  # of the clearance: a tilted head of one setting-up cuts no cone
@@ -45,6 +46,14 @@ SIDE_ROOTS = 2.0**0.5  # both corners are looked at: together they weigh as one
 
 # where Newton starts: s, turn and phi of the flank, turn and phi of the root
 Memory = Mapping[Side, tuple[Array, Array, Array, Array, Array]]
+
+
+@dataclass(frozen=True)
+class Wish:
+    """A value that an entry of the joint vector should keep near, and how far it may stray (mm, rad)."""
+
+    value: float
+    spread: float
 
 
 @dataclass(frozen=True)

@@ -226,6 +226,6 @@ def _root(
 
 
 # s, turn, phi, angle, left, lever, sense, radial, around, axial (FIXED rows), then n . dr/dp
-ROLLED_AT = Batched(_flank_by(True), parameters=2, block=96, points=96)
-FORMED_AT = Batched(_flank_by(False), parameters=2, block=8, points=8)
-ROOT_AT = Batched(_root, parameters=3, block=4, points=4)
+ROLLED_AT = Batched(_flank_by(True), parameters=2, block=96, most=96)
+FORMED_AT = Batched(_flank_by(False), parameters=2, block=8, most=8)
+ROOT_AT = Batched(_root, parameters=3, block=4, most=4)

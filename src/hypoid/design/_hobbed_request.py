@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from math import asin, isfinite, radians
+from typing import Literal, get_args
 
 from hypoid.blank import BlankRequest
 from hypoid.geometry import Problem
 
-from ._milled_request import PinionMethod, WheelMethod
+from ._milled_request import WheelMethod
 from ._spec import Assumption
 from ._target import EaseOffTarget, Target
+
+
+HobbedMethod = Literal["tilt", "modified-roll", "generated", "helical", "universal"]
 
 
 @dataclass(frozen=True)
@@ -45,7 +49,7 @@ class HobbedRequest:
     assumed: tuple[Assumption, ...]
     blank: BlankRequest
     wheel_method: WheelMethod = "formate"
-    pinion_method: PinionMethod = "tilt"
+    pinion_method: HobbedMethod = "tilt"
     grind: StickGrind = StickGrind()
     equal_spacing: bool = True
     drive: Target = field(default_factory=EaseOffTarget)
@@ -59,6 +63,11 @@ class HobbedRequest:
     def problems(self) -> list[Problem]:
         """What makes no sense beside the blank's numbers."""
         found = [*self.drive.problems("contact.drive"), *self.coast.problems("contact.coast")]
+        methods = get_args(HobbedMethod)
+        if self.pinion_method not in methods:
+            expected = f"one of {', '.join(methods)}: a face-hob head cuts both flanks in one setting-up"
+            given, example = f'"{self.pinion_method}"', 'method = "tilt"'
+            found.append(Problem("pinion.method", given, expected, example))
         if self.blank.blade_groups < 1:
             given, expected = f"{self.blank.blade_groups}", "at least 1 blade group"
             found.append(Problem("cutting.blade_groups", given, expected, "blade_groups = 13"))

@@ -86,8 +86,8 @@ class Batched:
     The function gets ``(*parameters, *arrays)`` and returns a tuple of arrays of that length; the
     answer has one row a component. It is compiled once, on first use, for blocks of ``block``
     points and as many of them as a call has: importing a module compiles nothing, and neither does
-    another length. Small blocks suit short batches, since one block is the least that is computed;
-    fewer ``points`` a call suit those that are always short, since all of them are handed over.
+    another length. Small blocks suit short batches, since one block is the least that is computed; ``most`` is
+    what one call hands over, which costs as much for a short batch as for a full one.
     """
 
     def __init__(
@@ -95,12 +95,12 @@ class Batched:
         function: Callable[..., tuple[Batch, ...]],
         parameters: int,
         block: int = 2048,
-        points: int = POINTS,
+        most: int = POINTS,
     ) -> None:
         self._function = function
         self._parameters = parameters
-        self._points = points
-        self._shape = (points // block, block)
+        self._most = most
+        self._shape = (most // block, block)
         self._compiled: Callable[..., tuple[Batch, ...]] | None = None
 
     def __call__(self, *arguments: Any) -> Rows:
@@ -115,25 +115,26 @@ class Batched:
         call = partial(self._compiled, parameters)
         first = self._piece(call, arrays, 0)
         answer = np.zeros((len(first), length))
-        answer[:, : self._points] = [row[:length] for row in first]
+        most = self._most
+        answer[:, :most] = [row[:length] for row in first]
 
         def piece(start: int) -> None:
-            part = slice(start, start + self._points)
+            part = slice(start, start + most)
             for target, row in zip(answer[:, part], self._piece(call, arrays, start), strict=True):
                 target[:] = row[: len(target)]
 
         with ThreadPoolExecutor(WORKERS) as pool:
-            list(pool.map(piece, range(self._points, length, self._points)))
+            list(pool.map(piece, range(most, length, most)))
         return answer
 
     def _piece(
         self, call: Callable[..., tuple[Batch, ...]], arrays: list[np.ndarray[Any, Any]], start: int
     ) -> list[np.ndarray[Any, Any]]:
         """One call's worth of points from ``start`` on; only what is asked for means anything."""
-        parts = [a[start : start + self._points] for a in arrays]
+        parts = [a[start : start + self._most] for a in arrays]
         length = len(parts[0])
-        if length < self._points:
-            parts = [_padded(a, self._points) for a in parts]
+        if length < self._most:
+            parts = [_padded(a, self._most) for a in parts]
         blocks = -(-length // self._shape[1])
         return [
             np.asarray(c).ravel() for c in call(blocks, *(a.reshape(self._shape) for a in parts))
@@ -184,8 +185,8 @@ class Packed:
         return made
 
 
-def _padded(part: np.ndarray[Any, Any], points: int) -> np.ndarray[Any, Any]:
+def _padded(part: np.ndarray[Any, Any], most: int) -> np.ndarray[Any, Any]:
     """Filled up to a whole call with copies of its last point, which is as harmless as the rest."""
-    filled = np.full(points, part[-1] if len(part) else 0.0)
+    filled = np.full(most, part[-1] if len(part) else 0.0)
     filled[: len(part)] = part
     return filled
