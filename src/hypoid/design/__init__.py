@@ -39,9 +39,12 @@ if TYPE_CHECKING:
     from ._dialled import dialled as dialled
     from ._dialled import machine_named as machine_named
     from ._exact_face_hobbed import exact_settings as exact_settings
+    from ._exact_sheet import ExactDesign as ExactDesign
+    from ._exact_sheet import design_exact as design_exact
     from ._hobbed_design import HobbedDesign as HobbedDesign
     from ._hobbed_design import design_hobbed as design_hobbed
     from ._hobbed_fit import HobbedFit as HobbedFit
+    from ._hobbed_fit import SideFit as SideFit
     from ._milled_design import MilledDesign as MilledDesign
     from ._milled_design import design_milled as design_milled
     from ._pinion_fit import FlankFit as FlankFit
@@ -53,10 +56,13 @@ _LAZY = {
     "dialled": "_dialled",
     "machine_named": "_dialled",
     "exact_settings": "_exact_face_hobbed",
+    "ExactDesign": "_exact_sheet",
+    "design_exact": "_exact_sheet",
     "FlankFit": "_pinion_fit",
     "HobbedDesign": "_hobbed_design",
     "design_hobbed": "_hobbed_design",
     "HobbedFit": "_hobbed_fit",
+    "SideFit": "_hobbed_fit",
     "MilledDesign": "_milled_design",
     "design_milled": "_milled_design",
 }
