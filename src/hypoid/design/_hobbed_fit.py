@@ -13,6 +13,8 @@ from hypoid.blank import PairBlank
 from hypoid.flank import SIDES, Side
 from hypoid.machine import MachineSettings
 
+from ._conjugate import COLUMNS as GRID_COLUMNS
+from ._conjugate import ROWS as GRID_ROWS
 from ._conjugate import Conjugate, conjugate
 from ._fit import CUT, Fit, Look, gauss_newton
 from ._hobbed_joint import (
@@ -31,16 +33,18 @@ from ._hobbed_request import HobbedRequest
 from ._hobbed_start import Start, conjugate_start, pinion_thickness, plain_start
 from ._hobbed_wheel import HobbedWheel, head_plan
 from ._milled_wheel import pitch_cone
+from ._motion_depth import motion_depth
 from ._pinion_methods import HEAD, METHODS, step_limits
-from ._pinion_model import UM
+from ._pinion_model import UM, target_places
 from ._settings_model import BLADE, MOTIONS, NAMES, ROLL, settings_of
-from ._target import Target
+from ._target import MotionTarget, Target
 
 Array = np.ndarray[Any, Any]
 FEWEST = 20  # points of a conjugate that a fit needs
 LEADING = math.radians(0.02)  # how firmly tilt is led to zero
 RADIUS_SPREAD = 0.4  # mm that a blade radius may stray from the head's, at the price of 1 um
 ANGLE_SPREAD = math.radians(0.5)
+MOTION_PASSES, MOTION_MET = 3, 0.004  # of the depth asked for
 ADVICE = (*HEAD, *ROLL[:3], "helical_motion", *(f"{side}.blade_curvature" for side in SIDES), *MOTIONS)
 
 
@@ -180,12 +184,67 @@ def _fitted(
         return None
     vector, fit = stage
     free = _entries(freedom.free, bends)
+    more = {name: Wish(0.0, spread) for name, spread in freedom.spreads.items()}
     if set(free) != set(own):
-        more = {name: Wish(0.0, spread) for name, spread in freedom.spreads.items()}
         last = work.run(vector, free, more, fit.look.memory, limits)
         if last is not None:
             vector, fit = last
+    aimed = dict(targets)
+    for _ in range(MOTION_PASSES):
+        next_aim = _aimed_again(work, vector, fit.look.memory, targets, aimed, blank)
+        if next_aim is None:
+            break
+        aimed = next_aim
+        last = replace(work, model=_with_targets(model, aimed, blank)).run(
+            vector, free, more, fit.look.memory, limits
+        )
+        if last is None:
+            break
+        vector, fit = last
     return work.result(vector, fit, free, limits)
+
+
+def _with_targets(model: JointModel, targets: Mapping[Side, Target], blank: PairBlank) -> JointModel:
+    """The model with other targets."""
+    sides = {
+        side: replace(own, wanted=targets[side].at(target_places(own.conjugate, blank)))
+        for side, own in model.sides.items()
+    }
+    return replace(model, sides=sides)
+
+
+def _aimed_again(
+    work: _Work,
+    vector: Array,
+    memory: Memory,
+    targets: Mapping[Side, Target],
+    aimed: Mapping[Side, Target],
+    blank: PairBlank,
+) -> dict[Side, Target] | None:
+    """Targets whose motion is asked deeper or shallower by what the fit missed; None where none is off.
+
+    The fit is to an ease-off: what it leaves changes the motion that was asked for.
+    """
+    seen = work.look(vector, {}, memory)
+    if seen is None:
+        return None
+    off, again = False, dict(aimed)
+    for side, own in work.model.sides.items():
+        target, now = targets[side], aimed[side]
+        if not (isinstance(target, MotionTarget) and isinstance(now, MotionTarget)):
+            continue
+        places = target_places(own.conjugate, blank)
+        lever, pitch = places.wheel_lever, float(places.wheel_pitch)
+        asked, got = (
+            motion_depth((GRID_ROWS, GRID_COLUMNS), own.there, e / lever, own.conjugate.roll, pitch)
+            for e in (own.wanted, seen.misfit[side] + own.wanted)
+        )
+        share = asked / got if got > 0.0 else math.nan
+        if not (0.5 < share < 2.0):
+            continue
+        off |= abs(share - 1.0) > MOTION_MET
+        again[side] = replace(now, transmission_error=now.transmission_error * share)
+    return again if off else None
 
 
 def _entries(names: Any, bends: bool) -> tuple[str, ...]:
