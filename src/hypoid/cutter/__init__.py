@@ -18,6 +18,7 @@ from ._mill_blade import Toprem as Toprem
 from ._profile import BladeName as BladeName
 from ._profile import PlanePiece as PlanePiece
 from ._traced_edge import mill_edge as mill_edge
+from ._traced_edge import stick_edges as stick_edges
 from ._tri_ac import TriAcHead as TriAcHead
 from ._tri_ac_blade import BladeToprem as BladeToprem
 from ._tri_ac_blade import TopremReading as TopremReading

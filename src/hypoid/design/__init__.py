@@ -12,6 +12,8 @@ from ._bearings import bearing_compliance as bearing_compliance
 from ._blank import Spec as Spec
 from ._blank import sheet_blank as sheet_blank
 from ._blank import spec_blank as spec_blank
+from ._hobbed_request import HobbedRequest as HobbedRequest
+from ._hobbed_request import StickGrind as StickGrind
 from ._milled_request import MilledRequest as MilledRequest
 from ._milled_request import PinionLimits as PinionLimits
 from ._milled_request import PinionMethod as PinionMethod
@@ -41,7 +43,13 @@ if TYPE_CHECKING:
     from ._dialled import dialled as dialled
     from ._dialled import machine_named as machine_named
     from ._exact_face_hobbed import exact_settings as exact_settings
+    from ._exact_sheet import ExactDesign as ExactDesign
+    from ._exact_sheet import design_exact as design_exact
     from ._flank_fit import FlankFit as FlankFit
+    from ._hobbed_design import HobbedDesign as HobbedDesign
+    from ._hobbed_design import design_hobbed as design_hobbed
+    from ._hobbed_fit import HobbedFit as HobbedFit
+    from ._hobbed_fit import SideFit as SideFit
     from ._milled_design import MilledDesign as MilledDesign
     from ._milled_design import design_milled as design_milled
 
@@ -53,6 +61,12 @@ _LAZY = {
     "machine_named": "_dialled",
     "exact_settings": "_exact_face_hobbed",
     "FlankFit": "_flank_fit",
+    "ExactDesign": "_exact_sheet",
+    "design_exact": "_exact_sheet",
+    "HobbedDesign": "_hobbed_design",
+    "design_hobbed": "_hobbed_design",
+    "HobbedFit": "_hobbed_fit",
+    "SideFit": "_hobbed_fit",
     "MilledDesign": "_milled_design",
     "design_milled": "_milled_design",
 }

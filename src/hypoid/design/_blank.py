@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from hypoid.blank import PairBlank, given_pair_blank, iso_blank, pair_blank
 
+from ._hobbed_request import HobbedRequest
 from ._milled_request import MilledRequest
 from ._sheet_spec import SummarySheetSpec
 from ._spec import ExactFaceHobbedSpec
 
-Spec = ExactFaceHobbedSpec | SummarySheetSpec | MilledRequest
+Spec = ExactFaceHobbedSpec | SummarySheetSpec | MilledRequest | HobbedRequest
 
 
 def spec_blank(spec: Spec) -> PairBlank:
@@ -21,7 +22,7 @@ def spec_blank(spec: Spec) -> PairBlank:
     """
     if isinstance(spec, SummarySheetSpec):
         return sheet_blank(spec)
-    if isinstance(spec, MilledRequest):
+    if isinstance(spec, MilledRequest | HobbedRequest):
         return iso_blank(spec.blank)
     return pair_blank(
         z1=spec.pinion_teeth,

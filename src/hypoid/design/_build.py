@@ -8,6 +8,8 @@ from hypoid.pair import GearPair, Member
 
 from ._blank import Spec
 from ._exact_face_hobbed import build_exact
+from ._hobbed_design import design_hobbed
+from ._hobbed_request import HobbedRequest
 from ._milled_design import design_milled
 from ._milled_pair import build_milled
 from ._milled_request import MilledRequest
@@ -25,6 +27,8 @@ def build(spec: Spec) -> GearPair:
     """
     if isinstance(spec, MilledRequest):
         spec = design_milled(spec).spec
+    elif isinstance(spec, HobbedRequest):
+        spec = design_hobbed(spec).spec
     pair = build_milled(spec) if isinstance(spec, SummarySheetSpec) else build_exact(spec)
     members = {name: _carried(getattr(pair, name), body) for name, body in spec.bodies.items()}
     return replace(pair, **members)

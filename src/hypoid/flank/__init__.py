@@ -29,6 +29,7 @@ from ._held import HeldPoints as HeldPoints
 from ._held import carried_point as carried_point
 from ._held import cutter_and_cradle as cutter_and_cradle
 from ._held import held_points as held_points
+from ._locate import roots_near as roots_near
 from ._section import lowest as lowest
 from ._status import PointStatus as PointStatus
 from ._tooth import SIDES as SIDES

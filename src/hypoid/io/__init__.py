@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from ._grid import grid_csv as grid_csv
     from ._grid import grid_json as grid_json
     from ._hex_files import write_hex as write_hex
+    from ._hobbed_written import exact_text as exact_text
+    from ._hobbed_written import hobbed_text as hobbed_text
     from ._inspection_json import inspection_json as inspection_json
     from ._inspection_layout import Layout as Layout
     from ._inspection_layout import layouts as layouts
@@ -55,6 +57,8 @@ _LAZY = {
     "user_layouts": "_inspection_layout",
     "corrected_design": "_inspection_rewrite",
     "read_inspection": "_inspection_read",
+    "exact_text": "_hobbed_written",
+    "hobbed_text": "_hobbed_written",
     "inspection_json": "_inspection_json",
     "inspection_text": "_inspection_write",
     "write_mesh": "_mesh_files",

@@ -36,6 +36,22 @@ def _diameter(example: str) -> object:
     return key("a length above 0", example, default=None, gt=0, le=2 * LARGEST)
 
 
+def _curve(lacking: str) -> object:
+    expected = f"a length other than 0, of stick blades, positive to crown the tooth; {lacking}"
+    return key(expected, "762 mm", default=None, ge=-LARGEST, le=LARGEST)
+
+
+class StickToprem(Table):
+    """toprem of the pinion's stick blades."""
+
+    angle: Angle = key(
+        "an angle above 0 and below 30 deg, off the flank", "2.5 deg", gt=0, lt=30 * DEG
+    )
+    length: Length = key(
+        "a length above 0, along the flank from the line of the tips", "1.6 mm", gt=0, le=LARGEST
+    )
+
+
 class RequestPair(Pair):
     """[pair]."""
 
@@ -58,6 +74,10 @@ class RequestPinion(Table):
     edge_radius: Length | None = key(
         "a length of 0 or more, of the blades", "0.6 mm", default=None, ge=0, le=LARGEST
     )
+    curve_radius: Length | None = _curve("either flank's own where not given")  # pyright: ignore
+    toprem: StickToprem | None = key(
+        "a table, of the stick blades", {"angle": "2.5 deg", "length": "1.6 mm"}, default=None
+    )
 
 
 class RequestWheel(Table):
@@ -77,6 +97,7 @@ class RequestWheel(Table):
     edge_radius: Length | None = key(
         "a length of 0 or more, of the blades", "0.8 mm", default=None, ge=0, le=LARGEST
     )
+    curve_radius: Length | None = _curve("straight where not given")  # pyright: ignore
 
 
 class RequestBlank(Table):
@@ -117,11 +138,44 @@ class RequestBlank(Table):
 class RequestCutting(Table):
     """[cutting]: the process and its cutter."""
 
-    process: Literal["face-milled"] = key('"face-milled"', "face-milled")
+    process: Literal["face-milled", "face-hobbed"] = key(
+        '"face-milled" or "face-hobbed"', "face-milled"
+    )
+    cutter: Literal["tri-ac", "exact"] | None = key(
+        '"tri-ac" for stick blades, or "exact" for the exact system of generation: what hobs',
+        "tri-ac", default=None,
+    )  # fmt: skip
     cutter_radius: Length = key("a length above 0", "63.5 mm", gt=0, le=LARGEST)
     pressure_angle: Angle = key(
         "an angle above 0 and below 45 deg, of both sides", "20 deg", default="20 deg",
         validate_default=True, gt=0, lt=45 * DEG - EPS,
+    )  # fmt: skip
+    coast_pressure_angle: Angle | None = key(
+        "an angle above 0 and below 45 deg, of the coast side where it is another", "23 deg",
+        default=None, gt=0, lt=45 * DEG - EPS,
+    )  # fmt: skip
+    blade_groups: int | None = key(
+        "a whole number from 1 to 100, of a face-hob head", 13, default=None, ge=1, le=100
+    )
+    equal_spacing: bool | None = key(
+        "true or false: whether inner blades stand midway between outer ones (true where not given)",
+        True, default=None,
+    )  # fmt: skip
+    eccentric_angle: Angle | None = key(
+        "an angle from 0 to below 60 deg; the slope angle where not given", "18.85 deg",
+        default=None, ge=0, lt=60 * DEG,
+    )  # fmt: skip
+    hook_angle: Angle | None = key(
+        "an angle between -45 and 45 deg; 4.42 deg where not given", "4.42 deg",
+        default=None, gt=-45 * DEG, lt=45 * DEG,
+    )  # fmt: skip
+    side_rake_angle: Angle | None = key(
+        "an angle between -45 and 45 deg; 12 deg where not given", "12 deg",
+        default=None, gt=-45 * DEG, lt=45 * DEG,
+    )  # fmt: skip
+    tip_edge_radius_factor: float | None = key(
+        "a plain number of 0 or more, times the mean normal module, of the exact system; 0.3 where "
+        "not given", 0.38, default=None, ge=0, le=4,
     )  # fmt: skip
     limit_share: float = key(
         "a plain number from 0 to 1: how far the sides are balanced about the limit pressure angle",

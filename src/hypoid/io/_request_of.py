@@ -5,16 +5,25 @@ from __future__ import annotations
 from typing import Any
 
 from hypoid.blank import BlankRequest, DepthFactors, TaperAngles, TypeI, TypeII
-from hypoid.design import Assumption, EaseOffTarget, MilledRequest, MotionTarget, Target
+from hypoid.design import (
+    Assumption,
+    EaseOffTarget,
+    ExactFaceHobbedSpec,
+    HobbedRequest,
+    MilledRequest,
+    MotionTarget,
+    Target,
+)
 
 from ._defaults import defaults_used
 from ._request_file import RequestBlank, RequestFile, TargetTable
+from ._request_hobbed import exact_of, grind_of, hobbing_assumed
 from ._request_rules import MOTION, TYPE_I
 
 _USUAL = EaseOffTarget()
 
 
-def request_of(file: RequestFile) -> MilledRequest:
+def request_of(file: RequestFile) -> MilledRequest | HobbedRequest | ExactFaceHobbedSpec:
     """The numbers of the file, with all that the file or the program assumed."""
     pinion, wheel, cutting, contact = file.pinion, file.wheel, file.cutting, file.contact
     of_pinion = pinion.mean_spiral_angle is not None
@@ -34,11 +43,15 @@ def request_of(file: RequestFile) -> MilledRequest:
     assumed += [
         a for a in defaults_used(tables) if a.value not in ("contact.drive", "contact.coast")
     ]
-    return MilledRequest(
-        title=file.title,
-        source=file.source,
-        assumed=(*assumed, *_guide_values(file.blank), *_usual_targets(file)),
-        blank=BlankRequest(
+    assumed += [*_guide_values(file.blank), *_usual_targets(file), *hobbing_assumed(file)]
+    if cutting.process == "face-hobbed" and cutting.cutter == "exact":
+        return exact_of(file, tuple(assumed))
+    coast = cutting.coast_pressure_angle
+    common: dict[str, Any] = {
+        "title": file.title,
+        "source": file.source,
+        "assumed": tuple(assumed),
+        "blank": BlankRequest(
             method=file.blank.method,
             z1=pinion.teeth,
             z2=wheel.teeth,
@@ -50,22 +63,31 @@ def request_of(file: RequestFile) -> MilledRequest:
             spiral_of="pinion" if of_pinion else "wheel",
             wheel_outer_diameter=outer,
             wheel_mean_diameter=wheel.mean_pitch_diameter,
-            pressure_angles=(cutting.pressure_angle, cutting.pressure_angle),
+            blade_groups=cutting.blade_groups or 0,
+            pressure_angles=(
+                cutting.pressure_angle,
+                cutting.pressure_angle if coast is None else coast,
+            ),
             limit_share=cutting.limit_share,
             tooth=_tooth(file.blank),
             taper=_taper(file.blank),
             pinion_hand=pinion.hand,
         ),
-        wheel_method=wheel.method,
-        pinion_method=pinion.method,
-        drive=_target(contact.drive, contact.marking_thickness),
-        coast=_target(contact.coast, contact.marking_thickness),
-        tolerance=contact.tolerance,
-        wheel_edge_radius=wheel.edge_radius,
-        pinion_edge_radius=pinion.edge_radius,
-        normal_backlash=file.pair.normal_backlash,
-        marking_thickness=contact.marking_thickness,
-    )
+        "wheel_method": wheel.method,
+        "pinion_method": pinion.method,
+        "drive": _target(contact.drive, contact.marking_thickness),
+        "coast": _target(contact.coast, contact.marking_thickness),
+        "tolerance": contact.tolerance,
+        "wheel_edge_radius": wheel.edge_radius,
+        "pinion_edge_radius": pinion.edge_radius,
+        "normal_backlash": file.pair.normal_backlash,
+        "marking_thickness": contact.marking_thickness,
+    }
+    if cutting.process == "face-hobbed":
+        return HobbedRequest(
+            **common, grind=grind_of(file), equal_spacing=cutting.equal_spacing is not False
+        )
+    return MilledRequest(**common)
 
 
 def _taper(blank: RequestBlank) -> Any:

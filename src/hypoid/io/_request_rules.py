@@ -8,6 +8,7 @@ from hypoid.geometry import Problem
 
 from ._document import Document, assigned, left_out, number_at, shown, table_at, value_at
 from ._keys import MOST_TEETH
+from ._request_hobbed import hobbing_rules
 
 SIZES = ("outer_pitch_diameter", "mean_pitch_diameter", "outer_transverse_module")
 TYPE_II = ("mean_addendum_factor", "depth_factor", "clearance_factor", "thickness_factor")
@@ -48,6 +49,7 @@ def request_rules(document: Document) -> Iterator[Problem]:
         )
     for side in ("drive", "coast"):
         yield from _target(document, f"contact.{side}")
+    yield from hobbing_rules(document)
 
 
 def _one_of(

@@ -162,4 +162,4 @@ def _length(value: float) -> str:
 
 def _line(key: str, value: Any, why: str = "") -> str:
     text = f"{key} = {toml(value)}"
-    return f"{text:<{COMMENT}}# {why}" if why else text
+    return f"{text:<{COMMENT - 2}}  # {why}" if why else text
