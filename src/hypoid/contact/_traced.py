@@ -56,9 +56,13 @@ class TracedContact:
         return self.contact.phi[self.contact.on_path]
 
     def transmission_error(self, parameters: ContactParameters) -> Batch:
-        """(n,) wheel angle minus z1/z2 pinion angle along the path, rad, less its value at zero."""
+        """(n,) wheel angle minus z1/z2 pinion angle along the path, rad, less its value at zero.
+
+        Empty, as the path, where the flanks never meet inside.
+        """
         lead = self.contact.points.lead[self.contact.on_path] + self._path(parameters)[0]
-        return lead - lead[int(np.argmin(np.abs(self.pinion_angle)))]
+        nearest = np.argsort(np.abs(self.pinion_angle), kind="stable")[:1]  # none without a path
+        return lead - lead[nearest].sum()
 
     def path(self, parameters: ContactParameters) -> Batch:
         """(n, 2) path of contact on the pinion as (S, H), mm."""
