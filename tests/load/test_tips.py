@@ -44,7 +44,7 @@ def test_the_land_stands_square_to_the_axis_of_a_straight_tooth(relief_pair: Gea
 
 
 def near_a_tip(loaded: LoadedContact) -> Meeting:
-    found = meeting(loaded.unloaded, len(loaded.unloaded.phi) // 2 + 30, -1)
+    found = meeting(loaded.unloaded, len(loaded.unloaded.phi) // 2 + 20, 1)
     assert found is not None
     return found
 
@@ -90,7 +90,7 @@ def test_a_pair_with_rounded_tips(
     drive_teeth: tuple[ToothCompliance, ToothCompliance],
     loaded: LoadedContact,
 ) -> None:
-    """A round of 0.2 mm lets the pinion turn further; away from the tips little changes."""
+    """A round of 0.2 mm at both tips: pressure away from them and rotation hardly know of it."""
     pair = replace(
         relief_pair,
         pinion=replace(relief_pair.pinion, tip_rounding=RADIUS),
@@ -100,9 +100,6 @@ def test_a_pair_with_rounded_tips(
     sharp = loaded.cases[-1]
 
     assert all(at.outcome is Outcome.OK for at in found.pitch)
-    # less metal turns further
-    turned = [np.mean([at.rotation for at in case.pitch]) for case in (sharp, found)]
-    assert turned[0] < turned[1] < 1.002 * turned[0]
     for a, b in zip(found.pitch, sharp.pitch, strict=True):
-        assert a.rotation == pytest.approx(b.rotation, rel=5e-3)
+        assert a.rotation == pytest.approx(b.rotation, rel=2e-3)
     assert found.max_pressure == pytest.approx(sharp.max_pressure, rel=0.02)
