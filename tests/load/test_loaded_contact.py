@@ -235,6 +235,9 @@ def test_root_stress_is_linear_in_the_hats_and_greatest_on_the_loaded_side(
         assert heavy.most_compressed < -0.5 * heavy.max_principal
         assert heavy.max_von_mises > 0.5 * heavy.max_principal
         assert (np.diff(heavy.pinion_angle) >= 0.0).all()
+        opposite = heavy.side != heavy.loaded_side
+        assert heavy.side[heavy.most_pressed] != heavy.loaded_side
+        assert heavy.least[:, heavy.most_pressed].min() == heavy.least[:, opposite].min()
 
 
 def test_bad_input_is_told_all_at_once(
