@@ -73,7 +73,7 @@ class LoadOptions:
     ] = False
     tip_rounding: Annotated[
         str | None,
-        Parameter(help="Radius of both members' tips, where not the design's: \"0.2 mm\"."),
+        _signed("Radius of both members' tips, where not the design's: \"0.2 mm\"."),
     ] = None
     offset: Annotated[
         str, _signed("Error of the offset, as of `hypoid contact`; the other three alike.")
