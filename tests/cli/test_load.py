@@ -45,6 +45,11 @@ def test_load_has_the_names_that_scripts_rely_on(hypoid: Any, tmp_path: Path) ->
             assert len(position["load_share"]) == position["pairs_in_contact"]
             assert sum(position["load_share"]) == pytest.approx(1.0, abs=1e-9)
             assert position["max_pressure_MPa"] <= case["max_pressure_MPa"]
+            pinion = position["bearings"]["pinion"]
+            assert pinion["force_N"][2] == position["pinion_axial_force_N"]
+            assert abs(pinion["moment_Nm"][2]) == pytest.approx(case["torque_Nm"], rel=1e-9)
+            assert pinion["displacement_mm"] == [0.0, 0.0, 0.0]  # nothing is said of bearings
+            assert position["bearing_misalignment"]["offset_um"] == pytest.approx(0.0, abs=1e-6)
     assert any("206 GPa" in a["value"] for a in result["assumed"])
     assert drawn.read_bytes().startswith(b"\x89PNG")
     status, out, _ = hypoid("load", RELIEF, *words[:2], *QUICK)
@@ -146,3 +151,18 @@ def test_an_interrupt_of_the_real_command_keeps_finished_positions(tmp_path: Pat
     assert result["complete"] is False
     assert 1 <= len(result["cases"][0]["positions"]) < 40
     assert "Interrupted" in err
+
+
+@pytest.mark.parametrize("radius", ["-0.1 mm", "3 mm", "0.2"])
+def test_a_tip_rounding_that_is_none(hypoid: Any, radius: str) -> None:
+    status, _, err = hypoid("load", RELIEF, "--torque", "5 N m", "--tip-rounding", radius)
+    assert status == 2
+    assert "--tip-rounding" in err
+    assert '"0.2 mm"' in err or "mm" in err
+
+
+def test_a_face_that_holds_nothing(hypoid: Any) -> None:
+    status, _, err = hypoid("load", RELIEF, "--torque", "5 N m", "--pinion-held", "teeth")
+    assert status == 2
+    assert "bore" in err
+    assert "back" in err

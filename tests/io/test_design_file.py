@@ -214,3 +214,41 @@ def test_json_schema_accepts_every_example_and_refuses_a_slip() -> None:
         with pytest.raises(jsonschema.ValidationError):
             jsonschema.validate(document | {"pinnion": {}}, schema)
     assert schema["$defs"]["Pair"]["properties"]["offset"]["type"] == "string"
+
+
+STIFF = [
+    [float(2e5 if i == j and i < 3 else 1e9 if i == j and i < 5 else 0.0) for j in range(6)]
+    for i in range(6)
+]
+
+
+def test_a_member_held_on_bearings() -> None:
+    spec = parse_spec(
+        edited(
+            pinion__support__held="back",
+            pinion__support__stiffness=STIFF,
+            wheel__body__tip_rounding="0.2 mm",
+        )
+    )
+    pinion, wheel = spec.bodies["pinion"], spec.bodies["wheel"]
+    assert pinion.held == "back"
+    assert pinion.stiffness == tuple(tuple(row) for row in STIFF)
+    assert (wheel.held, wheel.stiffness, wheel.tip_rounding) == (None, None, 0.2)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (lambda k: k[:5], "6 rows of 6"),
+        (lambda k: [[*k[0][:4], 1e6, 0.0], *k[1:]], "not symmetric"),
+        (lambda k: [[0.0] * 6, *k[1:]], "nothing holds"),
+        (lambda k: "stiff", "6 rows of 6"),
+    ],
+)
+def test_what_is_no_stiffness_is_told_with_the_reason(change: Any, words: str) -> None:
+    found = problems(wheel__support__stiffness=change(STIFF), pinion__support__held="rim")
+    problem = found["wheel.support.stiffness"]
+    assert words in problem.expected
+    assert "N mm/rad" in problem.expected
+    assert parse_spec(edited(wheel__support=tomlkit.parse(problem.example)))  # it works
+    assert found["pinion.support.held"].given == '"rim"'

@@ -13,15 +13,21 @@ from hypoid.contact import Misalignment, mounting
 from hypoid.design import BodySpec, bearing_compliance, build
 from hypoid.geometry import DesignError
 from hypoid.load import (
+    STEEL,
     Bearings,
     LoadCase,
     LoadedContact,
     ToothCompliance,
+    assumptions,
     bearings_of,
     loaded_contact,
+    rim_thickness,
+    warnings,
 )
 from hypoid.load._bearings import moved_mounting
+from hypoid.load._setup import support
 from hypoid.pair import GearPair
+from hypoid.solid import body
 
 TORQUE = 11e4
 FLOATING = np.diag([2e5, 1.5e5, 1e5, 8e8, 6e8, 0.0])  # N/mm, N mm/rad
@@ -166,3 +172,28 @@ def test_a_shaft_that_winds_up(
     for a, b in zip(found.positions, loaded.cases[-1].positions[::2], strict=True):
         assert a.rotation - b.rotation == pytest.approx(TORQUE * 1e-9, rel=0.02)
         assert [p.share for p in a.pairs] == pytest.approx([p.share for p in b.pairs], abs=3e-3)
+
+
+def test_a_thin_rim_is_warned_of(relief_pair: GearPair) -> None:
+    """A bore that leaves less metal under the slots than the teeth are deep."""
+    assert not warnings(relief_pair)
+    member = relief_pair.pinion
+    thick = rim_thickness(member)
+    depth = member.blank.outer_addendum + member.blank.outer_dedendum
+    bored = replace(member, bore=body(member).bore + thick - 0.9 * depth)
+    assert rim_thickness(bored) == pytest.approx(0.9 * depth)
+    (words,) = warnings(replace(relief_pair, pinion=bored))
+    assert "pinion's rim" in words
+
+
+def test_the_face_that_is_held(relief_pair: GearPair) -> None:
+    """As asked, else as the design says, else by the pitch angle; and what is assumed says so."""
+    pinion, wheel = relief_pair.pinion, relief_pair.wheel
+    assert support(pinion).faces(pinion) == ("bore",)
+    assert support(wheel).faces(wheel) == ("back_face",)
+    given = replace(pinion, held="back")
+    assert support(given).faces(given) == ("back_face",)
+    assert support(given, {"pinion": "bore"}).faces(given) == ("bore",)
+    told = [a.value for a in assumptions(relief_pair, STEEL, {"wheel": "bore"})]
+    assert "wheel held at its bore" in told
+    assert "pinion held at its bore" in told

@@ -66,7 +66,7 @@ def test_hertz_peak_and_approach(ratio: float, columns: int, rows: int) -> None:
 
 
 def test_the_greatest_pressure_does_not_depend_on_where_the_cells_stand() -> None:
-    """A sphere on 9 x 9 cells, moved by parts of a cell: read between the cells it keeps within 0.4 %, a cell does not."""
+    """A sphere on 9 x 9 cells, moved by parts of a cell: read between the cells within 0.4 %, a cell is not."""
     radius, force, n = 20.0, 1000.0, 11
     a, _, exact, _ = hertz(1.0, radius, force)
     size = 2.0 * a / 9.0

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from conftest import RELIEF, TABLE_1
 
-from hypoid.contact import to_wheel
+from hypoid.contact import Misalignment, to_wheel
 from hypoid.design import build
 from hypoid.geometry import DesignError
 from hypoid.load import (
@@ -23,6 +23,7 @@ from hypoid.load import (
     tooth_compliance,
 )
 from hypoid.load._cells import Cells, compliance
+from hypoid.load._loaded import _spline_range
 from hypoid.load._patch import Window, meeting, patch
 from hypoid.load._position import position_contact
 from hypoid.pair import GearPair
@@ -234,6 +235,9 @@ def test_root_stress_is_linear_in_the_hats_and_greatest_on_the_loaded_side(
         assert heavy.most_compressed < -0.5 * heavy.max_principal
         assert heavy.max_von_mises > 0.5 * heavy.max_principal
         assert (np.diff(heavy.pinion_angle) >= 0.0).all()
+        opposite = heavy.side != heavy.loaded_side
+        assert heavy.side[heavy.most_pressed] != heavy.loaded_side
+        assert heavy.least[:, heavy.most_pressed].min() == heavy.least[:, opposite].min()
 
 
 def test_bad_input_is_told_all_at_once(
@@ -265,3 +269,68 @@ def test_an_interrupt_keeps_what_is_done(
     found = loaded_contact(relief_pair, "drive", [1e4], *drive_teeth, positions=9, progress=stop)
     assert not found.complete
     assert len(found.cases[0].positions) == 2
+
+
+def test_coast_under_errors_of_mounting_keeps_the_laws(
+    relief_pair: GearPair, compliance_folder: Path
+) -> None:
+    """The other flanks, mounted wrong: moments, signs and shares hold as they do for drive."""
+    members = (
+        tooth_compliance(relief_pair.pinion, "convex", elements=QUICK, cache=compliance_folder),
+        tooth_compliance(relief_pair.wheel, "concave", elements=QUICK, cache=compliance_folder),
+    )
+    error = Misalignment(0.05, 0.02, -0.03, 2e-4)
+    found = loaded_contact(
+        relief_pair, "coast", [6e4], *members, positions=5, misalignment=error
+    ).cases[0]
+    for at in found.positions:
+        assert at.outcome is Outcome.OK
+        assert abs(at.pinion_wrench[5]) == pytest.approx(6e4, rel=1e-9)
+        assert abs(at.wheel_wrench[5]) == pytest.approx(at.wheel_torque, rel=1e-9)
+        assert sum(p.share for p in at.pairs) == pytest.approx(1.0, abs=1e-9)
+        assert all(p.pressure.min() >= 0.0 for p in at.pairs)
+        assert at.transmission_error < at.unloaded  # the wheel lags
+
+
+def test_drive_of_a_mirrored_pair_under_errors_is_the_drive_of_the_pair(
+    relief_pair: GearPair,
+    drive_teeth: tuple[ToothCompliance, ToothCompliance],
+    compliance_folder: Path,
+) -> None:
+    error = Misalignment(0.05, 0.02, -0.03, 2e-4)
+    mirrored = build(replace(TABLE_1, tip_relief=RELIEF, pinion_hand="right"))
+    members = (
+        tooth_compliance(mirrored.pinion, "concave", elements=QUICK, cache=compliance_folder),
+        tooth_compliance(mirrored.wheel, "convex", elements=QUICK, cache=compliance_folder),
+    )
+    one, other = (
+        loaded_contact(pair, "drive", [6e4], *teeth, positions=5, misalignment=error).cases[0]
+        for pair, teeth in ((relief_pair, drive_teeth), (mirrored, members))
+    )
+    for a, b in zip(one.positions, other.positions, strict=True):
+        assert b.rotation == pytest.approx(a.rotation, rel=1e-3)
+        assert [p.share for p in b.pairs] == pytest.approx([p.share for p in a.pairs], abs=3e-3)
+        np.testing.assert_allclose(
+            b.pinion_wrench, a.pinion_wrench * [1, -1, 1, -1, 1, -1], rtol=2e-3, atol=5.0
+        )
+
+
+def test_a_torque_beyond_all_measure_is_told(
+    relief_pair: GearPair, drive_teeth: tuple[ToothCompliance, ToothCompliance]
+) -> None:
+    """200 times the design's: the contact covers the flanks, their edges lead and the result says so."""
+    found = loaded_contact(relief_pair, "drive", [2.2e7], *drive_teeth, positions=5)
+    words = " ".join(found.cases[0].faults)
+    assert words
+    assert "22000 N m" in words
+
+
+def test_the_range_between_positions_is_that_of_a_smooth_curve() -> None:
+    """Six samples of a period find a sine's range within 2 %, its doubt covers the error; samples alone miss 13 %."""
+    angle = np.arange(6) / 6.0 * 2.0 * np.pi
+    made = _spline_range(np.sin(angle + 0.1))
+    assert made == pytest.approx(2.0, rel=0.02)
+    assert np.ptp(np.sin(angle)) < 0.87 * 2.0
+    assert _spline_range(np.sin(2.0 * np.pi * np.arange(24) / 24.0 + 0.1)) == pytest.approx(
+        2.0, rel=2e-4
+    )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 NM = 1e-3
 INTERRUPTED = 130
+MOST_ROUNDING = 1.0  # mm
 Direction = Literal["drive", "coast"]
 Mesh = Literal["coarse", "usual", "fine"]
 Face = Literal["bore", "back"]
@@ -70,6 +71,10 @@ class LoadOptions:
         bool,
         Parameter(negative=(), help="Leave out the stiffness of bearings that the design gives."),
     ] = False
+    tip_rounding: Annotated[
+        str | None,
+        _signed("Radius of both members' tips, where not the design's: \"0.2 mm\"."),
+    ] = None
     offset: Annotated[
         str, _signed("Error of the offset, as of `hypoid contact`; the other three alike.")
     ] = "0 mm"
@@ -96,6 +101,7 @@ class Request:
     misalignment: tuple[float, ...]
     held: dict[str, str]  # by member, where not the design's
     rigid: bool  # whether bearings are left out
+    tip_rounding: float | None  # mm, where not the design's
 
 
 def request(options: LoadOptions, figure: Path | None = None) -> Request:
@@ -145,6 +151,16 @@ def request(options: LoadOptions, figure: Path | None = None) -> Request:
         error = tuple(quantities({n: (t, kinds[n]) for n, t in errors.items()}).values())  # pyright: ignore
     except DesignError as wrong:
         problems += wrong.problems
+    rounding = None
+    if options.tip_rounding is not None:
+        try:
+            (rounding,) = quantities({"--tip-rounding": (options.tip_rounding, "length")}).values()
+        except DesignError as wrong:
+            problems += wrong.problems
+        if rounding is not None and not 0.0 <= rounding <= MOST_ROUNDING:
+            expected = f"a length from 0 to {MOST_ROUNDING:g} mm"
+            example = '--tip-rounding "0.2 mm"'
+            problems.append(Problem("--tip-rounding", options.tip_rounding, expected, example))
     if figure is not None and (
         figure.suffix.lower() not in (".svg", ".png") or not figure.absolute().parent.is_dir()
     ):
@@ -162,6 +178,7 @@ def request(options: LoadOptions, figure: Path | None = None) -> Request:
         error,
         {name: face for name, face in held.items() if face},
         options.rigid_bearings,
+        rounding,
     )
 
 
@@ -189,6 +206,11 @@ def computed(pair: GearPair, asked: Request, progress: Callable[[str, int, int],
         warnings,
     )
 
+    if asked.tip_rounding is not None:
+        pinion, wheel = (
+            replace(m, tip_rounding=asked.tip_rounding) for m in (pair.pinion, pair.wheel)
+        )
+        pair = replace(pair, pinion=pinion, wheel=wheel)
     for words in warnings(pair):
         say(f"Warning: {words}")
     bearings = RIGID if asked.rigid else bearings_of(pair)

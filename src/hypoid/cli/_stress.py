@@ -79,6 +79,9 @@ def _member(found: RootStress) -> dict[str, Any]:
         "height_mm": float(found.height[k]),
         "at_pinion_angle_deg": degrees(found.pinion_angle[int(found.greatest[:, k].argmax())]),
         "opposite_fillet_most_compressed_MPa": float(found.least[:, opposite].min(initial=0.0)),
+        "opposite_least_principal_MPa": found.least[:, found.most_pressed].tolist()
+        if found.most_pressed >= 0
+        else [],
         "pinion_angle_deg": np.degrees(found.pinion_angle).tolist(),
         "principal_there_MPa": found.greatest[:, k].tolist(),
         "least_principal_there_MPa": found.least[:, k].tolist(),

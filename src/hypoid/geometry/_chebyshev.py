@@ -43,8 +43,8 @@ def fit_line(values: Float[np.ndarray[Any, Any], "... i"]) -> Float[np.ndarray[A
 
 def horner_line(coefficients: Any, x: Batch) -> Batch:
     """Value at x in [-1, 1] of a polynomial given by its powers (i,)."""
-    if isinstance(x, np.ndarray) and x.ndim == 1:
-        return np.asarray(coefficients) @ _powers(x, coefficients.shape[0])
+    if isinstance(x, np.ndarray) and isinstance(coefficients, np.ndarray) and x.ndim == 1:
+        return coefficients @ _powers(x, coefficients.shape[0])
     total = coefficients[-1] + 0.0 * x
     for k in range(coefficients.shape[0] - 2, -1, -1):
         total = total * x + coefficients[k]
@@ -57,9 +57,10 @@ def horner(coefficients: Any, x: Batch, y: Batch) -> Batch:
     All columns at once, then along the row: few operations to trace, and XLA fuses them anyway. Numbers in NumPy go
     through a table of powers, which is one small matrix product.
     """
-    if isinstance(x, np.ndarray) and isinstance(y, np.ndarray) and x.ndim == y.ndim == 1:
+    plain = all(isinstance(v, np.ndarray) for v in (coefficients, x, y))
+    if plain and np.ndim(x) == np.ndim(y) == 1:
         by_x, by_y = (_powers(v, n) for v, n in zip((x, y), coefficients.shape, strict=True))
-        return ((np.asarray(coefficients).T @ by_x) * by_y).sum(axis=0)
+        return ((coefficients.T @ by_x) * by_y).sum(axis=0)
     spread = coefficients.reshape(*coefficients.shape, *(1,) * np.ndim(x))
     columns = spread[-1] + 0.0 * x
     for k in range(coefficients.shape[0] - 2, -1, -1):

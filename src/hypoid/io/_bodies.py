@@ -16,7 +16,7 @@ def bodies_of(file: DesignFile | SummarySheetFile) -> dict[str, BodySpec]:
             member.body.mounting_distance,
             member.body.tip_rounding,
             member.support.held,
-            member.support.stiffness and tuple(tuple(row) for row in member.support.stiffness),
+            None if (rows := member.support.stiffness) is None else tuple(map(tuple, rows)),
         )
         for name, member in (("pinion", file.pinion), ("wheel", file.wheel))
     }

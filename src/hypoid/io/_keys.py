@@ -118,12 +118,12 @@ class BodyTable(Table):
     bore_diameter: Length | None = key("a length above 0", "40 mm", default=None, gt=0, le=LARGEST)
     mounting_distance: Length | None = any_length("95 mm")
     tip_rounding: Length = key(
-        "a length of 0 or more, the radius between flank and top land",
+        "a length from 0 to 1 mm, the radius between flank and top land",
         "0.2 mm",
         default="0 mm",
         validate_default=True,
         ge=0,
-        le=LARGEST,
+        le=1,
     )
 
 

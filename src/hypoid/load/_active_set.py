@@ -17,8 +17,9 @@ from enum import Enum
 from typing import Any
 
 import numpy as np
-from scipy.linalg import LinAlgError, cho_solve, cholesky
-from scipy.linalg.blas import dtrsm
+from scipy.linalg import LinAlgError
+
+from ._dense import factored, lower_solved
 
 Array = np.ndarray[Any, Any]
 ROUNDS = 400
@@ -111,13 +112,12 @@ class _Solver:
     def __init__(self, compliance: Array, sides: Array, active: Array) -> None:
         self.compliance, self.sides, self.active = compliance, sides, active
         self.base = np.flatnonzero(active)
-        block = compliance[np.ix_(self.base, self.base)]
-        self.factor = cholesky(block, lower=True, overwrite_a=True, check_finite=False)
-        self.answer = self._through(sides[self.base])
+        self.factor = factored(compliance[np.ix_(self.base, self.base)])
+        self.answer = lower_solved(self.factor, lower_solved(self.factor, sides[self.base]), True)
 
     def near(self, active: Array) -> bool:
         """Whether bordering is cheaper than a factor of this set's own."""
-        return np.count_nonzero(active != self.active) < BORDER * len(self.base)
+        return bool(np.count_nonzero(active != self.active) < BORDER * len(self.base))
 
     def on(self, active: Array) -> Array:
         """Solutions (2, n) for both sides, zero off the set."""
@@ -132,18 +132,13 @@ class _Solver:
             hold = np.zeros((len(self.base), len(left)), order="F")
             hold[left, np.arange(len(left))] = 1.0
             border = np.concatenate([self.compliance[np.ix_(self.base, joined)], hold], axis=1)
-            half = dtrsm(1.0, self.factor, np.asfortranarray(border), lower=1)
+            half = lower_solved(self.factor, border)
             small = -(half.T @ half)
             j = len(joined)
             small[:j, :j] += self.compliance[np.ix_(joined, joined)]
             right = np.concatenate([self.sides[joined], np.zeros((len(left), 2))])
             share = np.linalg.solve(small, right - border.T @ self.answer)
-            made[self.base] -= dtrsm(
-                1.0, self.factor, np.asfortranarray(half @ share), lower=1, trans_a=1
-            )
+            made[self.base] -= lower_solved(self.factor, half @ share, True)
             made[self.base[left]] = 0.0
             made[joined] = share[:j]
         return made.T
-
-    def _through(self, right: Array) -> Array:
-        return cho_solve((self.factor, True), right, check_finite=False)

@@ -53,8 +53,8 @@ class Cells:
     def half_space(self) -> Array:
         """Displacement (n, n), mm/N, of half-spaces with each cell's images beyond both tips."""
         p = self.patch
-        on = p.on.ravel()
-        cells = regular_grid(*p.on.shape, *p.size)[np.ix_(on, on)] / self.teeth.plane_modulus
+        on, (columns, rows) = p.on.ravel(), p.on.shape
+        cells = regular_grid(columns, rows, *p.size)[np.ix_(on, on)] / self.teeth.plane_modulus
         for member, tip in zip((self.teeth.pinion, self.teeth.wheel), p.tips, strict=True):
             image = mirrored_grid(p.plane[:, 0], p.plane[:, 1], tip, *p.size)
             cells += IMAGE / member.made_of.plane_modulus * image

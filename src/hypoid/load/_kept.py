@@ -14,7 +14,16 @@ import numpy as np
 from platformdirs import user_cache_dir
 
 Array = np.ndarray[Any, Any]
-MODULES = ("_bricks", "_compliance", "_hats", "_layers", "_love", "_material", "_superelement")
+MODULES = (
+    "_bricks",
+    "_compliance",
+    "_dense",
+    "_hats",
+    "_layers",
+    "_love",
+    "_material",
+    "_superelement",
+)
 SOURCE = b"".join(Path(__file__).with_name(f"{name}.py").read_bytes() for name in MODULES)
 
 

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.linalg import cholesky
-from scipy.linalg.blas import dtrsm
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import breadth_first_order, connected_components
+
+from ._dense import factored, lower_solved
 
 Array = np.ndarray[Any, Any]
 Progress = Callable[[str, int, int], None]
@@ -106,13 +106,13 @@ def through(
 
     for layers in (rising, falling):
         if layers:
-            columns = [Columns.of(m, [*layers, core]) for m in (load, sight)]
+            columns = Columns.of(load, [*layers, core]), Columns.of(sight, [*layers, core])
             product, off_own, off_right = _eliminated(matrix, [*layers, core], *columns, step)
             order = np.concatenate([columns[0].order, r + columns[1].order])
             whole[np.ix_(order, columns[0].order)] += product
             own -= off_own
             right[:, order] -= off_right
-    answer = _solved(_factor(own), right)
+    answer = lower_solved(factored(own), right)
     step()
     whole += answer.T @ answer[:, :r]
     return whole[:r], whole[r:]
@@ -136,10 +136,11 @@ def _eliminated(
             right[:, : had[0]] -= off_right[:, : had[0]]
             right[:, a : a + had[1]] -= off_right[:, had[0] :]
         own = matrix[unknowns][:, unknowns].toarray() - off_own
-        factor = _factor(own[np.ix_(turn, turn)])
-        answer = _solved(factor, right[turn])
-        corner = np.asfortranarray(factor[-front:, -front:])
-        link = _solved(corner, matrix[unknowns[meets]][:, layers[k + 1]].toarray())
+        factor = factored(own[np.ix_(turn, turn)])
+        answer = lower_solved(factor, right[turn])
+        link = lower_solved(
+            factor[-front:, -front:], matrix[unknowns[meets]][:, layers[k + 1]].toarray()
+        )
         off_own, off_right, had = link.T @ link, link.T @ answer[-front:], (a, b)
         part = answer.T @ answer[:, :a]
         product[:a, :a] += part[:a]
@@ -150,12 +151,3 @@ def _eliminated(
     all_right[:, : had[0]] = off_right[:, : had[0]]
     all_right[:, r : r + had[1]] = off_right[:, had[0] :]
     return product, off_own, all_right
-
-
-def _factor(matrix: Array) -> Array:
-    return cholesky(matrix, lower=True, overwrite_a=True, check_finite=False)
-
-
-def _solved(factor: Array, right: Array) -> Array:
-    """L^-1 of columns."""
-    return dtrsm(1.0, factor, np.asfortranarray(right), lower=1, overwrite_b=1)

@@ -227,14 +227,19 @@ def loaded_contact(
     held = bearings_of(pair) if bearings is None else bearings
     per_pitch = (positions - 1) // 2
     fine = per_pitch * -(-FINE // per_pitch)
-    for count in PAIRS if pairs is None else (pairs,):
-        unloaded = unloaded_contact(
-            pair, direction, misalignment, Sampling(positions_per_pitch=fine, pairs=count)
-        )
+    first, *more = PAIRS if pairs is None else (pairs,)
+
+    def attempt(count: int) -> tuple[UnloadedContact, Teeth, tuple[LoadCase, ...]]:
+        sampling = Sampling(positions_per_pitch=fine, pairs=count)
+        unloaded = unloaded_contact(pair, direction, misalignment, sampling)
         teeth = Teeth(pinion, wheel, round(float(unloaded.mount.sense)), held)
-        found = _solved(unloaded, teeth, sorted(set(torques)), per_pitch, progress)
+        return unloaded, teeth, _solved(unloaded, teeth, sorted(set(torques)), per_pitch, progress)
+
+    unloaded, teeth, found = attempt(first)
+    for count in more:
         if not any(at.outcome is Outcome.MORE_PAIRS for case in found for at in case.positions):
             break
+        unloaded, teeth, found = attempt(count)
     complete = len(found[0].positions) > per_pitch
     return LoadedContact(pair, direction, unloaded, teeth, found, complete)
 

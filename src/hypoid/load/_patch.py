@@ -7,12 +7,14 @@ as everywhere in the unloaded contact.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from hypoid.contact import Mounting, UnloadedContact, angle_field, lead, to_pinion, to_wheel
+from hypoid.contact import Mounting, UnloadedContact, lead, to_pinion, to_wheel
+
+from ._tips import active_field, falls_away, land_angle
 
 Array = np.ndarray[Any, Any]
 ENDS = ("tip", "toe", "heel", "fillet limit")
@@ -44,8 +46,9 @@ class Meeting:
     def surface(self, a: Array, b: Array) -> Surface:
         """The pinion's points on rays at (a, b), mm, of the tangent plane."""
         mount, phi = self.contact.mount, self.phi
-        pinion = angle_field(self.contact.pinion_flank)
-        wheel = angle_field(self.contact.wheel_flank)
+        pair, flanks = self.contact.pair, (self.contact.pinion_flank, self.contact.wheel_flank)
+        pinion = active_field(flanks[0], pair.pinion.tip_rounding)
+        wheel = active_field(flanks[1], pair.wheel.tip_rounding)
         foot = self.origin + a[:, None] * self.axes[0] + b[:, None] * self.axes[1]
 
         def miss(height: Array) -> Array:
@@ -89,6 +92,10 @@ class Surface:
     pinion: Any
     wheel: Any
 
+    def cut(self, on: Array) -> Surface:
+        """Some of the points."""
+        return replace(self, point=self.point[on], normal=self.normal[on])
+
     @property
     def pinion_place(self) -> tuple[Array, Array]:
         """(S, H) on the pinion, mm."""
@@ -103,13 +110,19 @@ class Surface:
         return self.wheel.cone.cone_distance_height(z, np.hypot(x, y))
 
     @property
+    def bodily(self) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+        """Points and outward normals, (n, 3) each, of pinion and wheel in their own left-hand frames."""
+        mount, x, n = self.meeting.contact.mount, self.point, self.normal
+        phi = np.full(len(x), self.meeting.phi)
+        own = to_pinion(mount, phi, x)
+        return (own, to_pinion(mount, phi, x + n) - own), (x, -n)
+
+    @property
     def levers(self) -> tuple[Array, Array]:
         """Levers (n,) of pinion and wheel, mm: normal motion of a flank a radian of its travel."""
-        mount, x, n = self.meeting.contact.mount, self.point, self.normal
-        zero = np.zeros(len(x))
-        own = to_pinion(mount, zero + self.meeting.phi, x)
-        ahead = to_pinion(mount, zero + self.meeting.phi, x + n) - own
-        pinion = -mount.sense * (own[:, 0] * ahead[:, 1] - own[:, 1] * ahead[:, 0])
+        (own, out), (x, n) = self.bodily
+        sense = self.meeting.contact.mount.sense
+        pinion = -sense * (own[:, 0] * out[:, 1] - own[:, 1] * out[:, 0])
         return pinion, np.abs(x[:, 0] * n[:, 1] - x[:, 1] * n[:, 0])
 
     def gaps(self) -> Array:
@@ -121,6 +134,17 @@ class Surface:
         with np.errstate(invalid="ignore"):
             gap = (m.lead - leads) * self.levers[1]
         return np.where(held, gap, np.inf)
+
+
+def _tip_lines(surface: Surface, flanks: Any, plane: Array) -> tuple[Array, Array]:
+    """Both tips' sharp edges as straight lines of the tangent plane (see `Patch.tips`), from cells (n, 2) in it."""
+    terms = np.column_stack([np.ones(len(plane)), plane])
+    places = (surface.pinion_place, surface.wheel_place)
+    first, second = (
+        np.linalg.lstsq(terms, flank.tip.at(s) - h, rcond=None)[0]
+        for flank, (s, h) in zip(flanks, places, strict=True)
+    )
+    return first, second
 
 
 def meeting(contact: UnloadedContact, position: int, pair: int) -> Meeting | None:
@@ -250,17 +274,23 @@ def patch(met: Meeting, window: Window) -> Patch:
     surface = met.surface(a, b)
     gap = surface.gaps()
     on = np.isfinite(gap) & (surface.normal @ met.axes[2] > 0.5)
-    kept = Surface(met, surface.point[on], surface.normal[on], surface.pinion, surface.wheel)
-    levers, places = kept.levers, (kept.pinion_place, kept.wheel_place)
     flanks = (met.contact.pinion_flank, met.contact.wheel_flank)
+    tips = _tip_lines(surface.cut(on), flanks, np.stack([a[on], b[on]], axis=1))
+    pair = met.contact.pair
+    radii = (pair.pinion.tip_rounding, pair.wheel.tip_rounding)
+    for k, (line, radius) in enumerate(zip(tips, radii, strict=True)):
+        if radius > 0.0 and on.any():
+            apart = (line[0] + line[1] * a + line[2] * b) / np.hypot(*line[1:])
+            there = np.flatnonzero(on)[[np.abs(apart[on]).argmin()]]
+            point, normal = surface.cut(there).bodily[k]
+            gap = gap + falls_away(apart, float(land_angle(flanks[k], normal, point)[0]), radius)
+            on &= np.isfinite(gap)
+    kept = surface.cut(on)
+    levers, places = kept.levers, (kept.pinion_place, kept.wheel_place)
     plane = np.stack([a[on], b[on]], axis=1)
-    terms = np.column_stack([np.ones(len(plane)), plane])
     edges: list[Array] = []
-    tips: list[Array] = []
     fields = (surface.pinion, surface.wheel)
     for flank, field, (s, h) in zip(flanks, fields, places, strict=True):
-        line, *_ = np.linalg.lstsq(terms, flank.tip.at(s) - h, rcond=None)
-        tips.append(line)
         low = np.asarray(field.lowest.bounds(s)[0])
         edges += [flank.tip.at(s) - h, s - flank.toe, flank.heel - s, h - low]
     return Patch(
@@ -275,7 +305,7 @@ def patch(met: Meeting, window: Window) -> Patch:
         *levers,
         *places,
         plane,
-        (tips[0], tips[1]),
+        tips,
         np.min(edges, axis=0),
         np.argmin(edges, axis=0),
     )

@@ -47,6 +47,14 @@ class RootStress:
         """Point of the greatest tension."""
         return int(self.greatest.max(axis=0).argmax())
 
+    @property
+    def most_pressed(self) -> int:
+        """Point of the greatest compression in the fillet opposite the loaded flank; -1 where there is none."""
+        opposite = np.flatnonzero(self.side != self.loaded_side)
+        if not len(opposite):
+            return -1
+        return int(opposite[self.least[:, opposite].min(axis=0).argmin()])
+
 
 def root_stress(
     loaded: LoadedContact, case: LoadCase, member: Literal["pinion", "wheel"]

@@ -184,6 +184,10 @@ def _over_time(axes: Axes, found: RootStress, colour: str) -> None:
     axes.plot(angle, found.greatest[:, k], color=colour, label="maximum principal")
     axes.plot(angle, found.least[:, k], "--", color=colour, label="minimum principal")
     axes.plot(angle, found.von_mises[:, k], ":", color=GREY, label="von Mises")
+    if (pressed := found.most_pressed) >= 0:
+        axes.plot(
+            angle, found.least[:, pressed], "-.", color=BLACK, label="opposite fillet, minimum"
+        )
     axes.axhline(0.0, color=BLACK, linewidth=0.6)
     strained = angle[found.von_mises[:, k] > 0.01 * found.von_mises[:, k].max()]
     axes.set_xlim(strained.min(), strained.max())
