@@ -346,9 +346,7 @@ def main() -> None:
         (p,) = found.patches
         on = found.solution.force > 0.0
         by_torque[torque] = (found, p, np.abs(p.plane[on]).max(axis=0))
-        print(
-            f"{torque * 1e-3:g} N m: contact to {by_torque[torque][2]} mm, rotation {1e6 * found.solution.rotation:.2f} urad"
-        )
+        print(f"{torque * 1e-3:g} N m: contact to {by_torque[torque][2]} mm")
     tooth = fine_tooth(pair.pinion, "concave", middle, 44, 14, 5)
     for torque, (found, p, half) in by_torque.items():
         compare(met, tooth, torque, found, p, half)
@@ -375,7 +373,8 @@ def compare(met: Meeting, tooth: Tooth, torque: float, found: Any, p: Any, half:
     print(f"{torque * 1e-3:g} N m ({answer.outcome.name}); compliance uneven by {fine.uneven:.1e}")
     print(f"  rotation {1e6 * answer.rotation:.2f}, here {1e6 * found.solution.rotation:.2f} urad")
     print(
-        f"  peak {pressure.max():.1f}, here {ours_pressure.max():.1f} MPa; force {answer.force.sum():.1f}, {found.solution.force.sum():.1f} N"
+        f"  peak {pressure.max():.1f}, here {ours_pressure.max():.1f} MPa; "
+        f"force {answer.force.sum():.1f}, {found.solution.force.sum():.1f} N"
     )
     rows = np.unique(fine.a)
     columns = np.unique(p.plane[:, 0])
@@ -386,7 +385,8 @@ def compare(met: Meeting, tooth: Tooth, torque: float, found: Any, p: Any, half:
         theirs = answer.force[own].sum() / w
         if theirs > 1.0:
             print(
-                f"  a = {a:6.3f} mm: {theirs:7.1f}, {np.interp(a, columns, line_ours):7.1f} N/mm; {pressure[own].max():7.1f} MPa"
+                f"  a = {a:6.3f} mm: {theirs:7.1f}, {np.interp(a, columns, line_ours):7.1f} N/mm; "
+                f"{pressure[own].max():7.1f} MPa"
             )
 
 
