@@ -1,8 +1,8 @@
 """A pinion tooth against fine elements, for docs/validation/loaded-contact.md; run by hand.
 
-    python benchmarks/fine_tooth.py 2 8
+    python benchmarks/fine_tooth.py 2 6
 
-(newtons of torque in N m, one or more). The mate is rigid and stands where the unloaded contact puts it; gaps are those
+with torques in N m. The mate is rigid and stands where the unloaded contact puts it; gaps are those
 of the exact surfaces for both. The reference knows no half-space: a block of 20-node bricks lies along the contact, its
 upper face on the exact flank, finer than the contact is wide; its sides move as those of the whole tooth, whose own
 elements are as fine as memory allows there. Both carry the same load, hat by hat.
@@ -10,7 +10,7 @@ elements are as fine as memory allows there. Both carry the same load, hat by ha
 
 from __future__ import annotations
 
-import sys
+import argparse
 import time
 from dataclasses import dataclass
 from itertools import product
@@ -37,6 +37,7 @@ from hypoid.solid._hex_mesh import ACROSS, ROWS, _one
 Array = np.ndarray[Any, Any]
 EXAMPLE = Path(__file__).parent.parent / "examples" / "gonzalez-fuentes-2022-relief.toml"
 SIDES = ("concave", "convex")
+SIZES = Elements(along=20, profile=8, fillet=2, through=3, below=1, rim=1)  # of the method's tooth
 ZONE = 3.2  # mm of S either side of the contact point where the whole tooth is fine
 CORNERS = np.array(
     [
@@ -210,7 +211,10 @@ def located(tooth: Tooth, points: Array) -> tuple[Array, Array]:
         better = size < best[todo]
         best[todo[better]] = size[better]
         element[todo[better]], value[todo[better]] = near[todo, k][better], shape_values(at)[better]
-    print(f"points outside every element by at most {best.max() - 1.0:.1e} of its half length")
+    out = best > 1.01
+    print(
+        f"{out.sum()} of {len(points)} points outside every element, by at most {best.max() - 1.0:.1e} of its half length"
+    )
     return element, value
 
 
@@ -333,38 +337,43 @@ def ours(pair: GearPair, met: Meeting, sizes: Elements) -> Teeth:
 
 def main() -> None:
     """Print both for each torque."""
-    torques = [float(t) * 1e3 for t in sys.argv[1:]] or [4e3]
+    given = argparse.ArgumentParser(description=__doc__)
+    given.add_argument("torque", type=float, nargs="+", help="N m")
+    given.add_argument("--whole", default="44,14,5", help="elements: in the zone, profile, through")
+    given.add_argument("--across", type=int, default=5, help="of the block, over half the contact")
+    asked = given.parse_args()
+    torques = [t * 1e3 for t in asked.torque]
     pair = hypoid.read(EXAMPLE)
     contact = unloaded_contact(pair, "drive", None, Sampling(positions_per_pitch=40, pairs=9))
     met = meeting(contact, len(contact.phi) // 2, 0)
     assert met is not None
     middle = float(met.surface(np.zeros(1), np.zeros(1)).pinion_place[0][0])
-    teeth = ours(pair, met, Elements(along=24, profile=8, fillet=4, through=4, below=2, rim=2))
+    teeth = ours(pair, met, SIZES)
     by_torque = {}
     for torque in torques:
         found = position_contact([met], teeth, torque)
         (p,) = found.patches
         on = found.solution.force > 0.0
         by_torque[torque] = (found, p, np.abs(p.plane[on]).max(axis=0))
-        print(
-            f"{torque * 1e-3:g} N m: contact to {by_torque[torque][2]} mm, rotation {1e6 * found.solution.rotation:.2f} urad"
-        )
-    tooth = fine_tooth(pair.pinion, "concave", middle, 44, 14, 5)
+        print(f"{torque * 1e-3:g} N m: contact to {by_torque[torque][2]} mm")
+    tooth = fine_tooth(pair.pinion, "concave", middle, *map(int, asked.whole.split(",")))
     for torque, (found, p, half) in by_torque.items():
-        compare(met, tooth, torque, found, p, half)
+        compare(met, tooth, torque, found, p, half, asked.across)
 
 
-def compare(met: Meeting, tooth: Tooth, torque: float, found: Any, p: Any, half: Array) -> None:
+def compare(
+    met: Meeting, tooth: Tooth, torque: float, found: Any, p: Any, half: Array, count: int
+) -> None:
     """One torque: the block is made for its contact."""
     long, wide = 1.15 * half[0] + 0.1, 1.3 * half[1]
-    size = half[1] / 5.0
-    side = graded(size, wide, max(0.75, 2.5 * wide), 1.5)
-    line = graded(long / 9.0, long, long + 0.8, 1.3)
+    size = half[1] / count
+    side = graded(size, wide, max(0.5, 2.5 * wide), 1.6)
+    line = graded(long / 8.0, long, long + 0.5, 1.3)
     made = block(
         met,
         np.concatenate([-line[:0:-1], line]),
         np.concatenate([-side[:0:-1], side]),
-        graded(size, 2.0 * size, 1.0, 1.5),
+        graded(size, 2.0 * size, 0.8, 1.7),
     )
     inside = np.flatnonzero((np.abs(made.a) < long + 1e-9) & (np.abs(made.b) < wide + 1e-9))
     print(f"block: {len(made.nodes)} nodes, {len(inside)} hats, across {size:.3f} mm")
@@ -375,7 +384,8 @@ def compare(met: Meeting, tooth: Tooth, torque: float, found: Any, p: Any, half:
     print(f"{torque * 1e-3:g} N m ({answer.outcome.name}); compliance uneven by {fine.uneven:.1e}")
     print(f"  rotation {1e6 * answer.rotation:.2f}, here {1e6 * found.solution.rotation:.2f} urad")
     print(
-        f"  peak {pressure.max():.1f}, here {ours_pressure.max():.1f} MPa; force {answer.force.sum():.1f}, {found.solution.force.sum():.1f} N"
+        f"  peak {pressure.max():.1f}, here {ours_pressure.max():.1f} MPa; "
+        f"force {answer.force.sum():.1f}, {found.solution.force.sum():.1f} N"
     )
     rows = np.unique(fine.a)
     columns = np.unique(p.plane[:, 0])
@@ -386,7 +396,8 @@ def compare(met: Meeting, tooth: Tooth, torque: float, found: Any, p: Any, half:
         theirs = answer.force[own].sum() / w
         if theirs > 1.0:
             print(
-                f"  a = {a:6.3f} mm: {theirs:7.1f}, {np.interp(a, columns, line_ours):7.1f} N/mm; {pressure[own].max():7.1f} MPa"
+                f"  a = {a:6.3f} mm: {theirs:7.1f}, {np.interp(a, columns, line_ours):7.1f} N/mm; "
+                f"{pressure[own].max():7.1f} MPa"
             )
 
 
