@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 from ._blank import Spec as Spec
 from ._blank import sheet_blank as sheet_blank
 from ._blank import spec_blank as spec_blank
+from ._milled_request import FREE as FREE
+from ._milled_request import TOGETHER as TOGETHER
 from ._milled_request import MilledRequest as MilledRequest
 from ._milled_request import PinionLimits as PinionLimits
 from ._milled_request import PinionMethod as PinionMethod

@@ -17,6 +17,18 @@ PinionMethod = Literal[
     "tilt", "modified-roll", "generated", "fixed-setting", "helical", "universal", "completing",
     "duplex-helical",
 ]  # fmt: skip
+FREE = (
+    "tilt_angle", "swivel_angle", "helical_motion", "blade_curvature",
+    *(f"modified_roll_{order}" for order in range(2, 7)),
+    *(
+        f"{axis}_{order}"
+        for axis in (
+            "radial_distance", "tilt_angle", "swivel_angle", "blank_offset", "machine_root_angle",
+            "machine_center_to_back",
+        )
+        for order in (1, 2)
+    ),
+)  # fmt: skip
 TOGETHER: tuple[PinionMethod, ...] = (
     "completing",
     "duplex-helical",

@@ -5,13 +5,23 @@ from __future__ import annotations
 from typing import Any
 
 from hypoid.blank import BlankRequest, DepthFactors, TaperAngles, TypeI, TypeII
-from hypoid.design import Assumption, EaseOffTarget, MilledRequest, MotionTarget, Target
+from hypoid.design import (
+    Assumption,
+    EaseOffTarget,
+    MilledRequest,
+    MotionTarget,
+    PinionLimits,
+    Target,
+)
 
 from ._defaults import defaults_used
-from ._request_file import RequestBlank, RequestFile, TargetTable
+from ._request_file import RequestBlank, RequestFile, RequestPinion, TargetTable
 from ._request_rules import MOTION, TYPE_I
 
 _USUAL = EaseOffTarget()
+_NO_VALUE = (
+    "contact.drive", "contact.coast", "pinion.free", "pinion.fixed", "pinion.range", "pinion.machine",
+)  # fmt: skip
 
 
 def request_of(file: RequestFile) -> MilledRequest:
@@ -31,9 +41,7 @@ def request_of(file: RequestFile) -> MilledRequest:
         "contact": contact,
     }
     assumed = [Assumption(a.value, a.reason) for a in file.assumed]
-    assumed += [
-        a for a in defaults_used(tables) if a.value not in ("contact.drive", "contact.coast")
-    ]
+    assumed += [a for a in defaults_used(tables) if a.value not in _NO_VALUE]
     return MilledRequest(
         title=file.title,
         source=file.source,
@@ -63,8 +71,19 @@ def request_of(file: RequestFile) -> MilledRequest:
         tolerance=contact.tolerance,
         wheel_edge_radius=wheel.edge_radius,
         pinion_edge_radius=pinion.edge_radius,
+        limits=_limits(pinion),
         normal_backlash=file.pair.normal_backlash,
         marking_thickness=contact.marking_thickness,
+    )
+
+
+def _limits(pinion: RequestPinion) -> PinionLimits:
+    ranges = pinion.range.model_dump(exclude_none=True)
+    return PinionLimits(
+        machine=pinion.machine or "",
+        free=tuple(pinion.free),
+        fixed=pinion.fixed.model_dump(exclude_none=True),
+        ranges={name: (low, high) for name, (low, high) in ranges.items()},
     )
 
 
