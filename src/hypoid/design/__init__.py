@@ -14,6 +14,8 @@ from ._blank import sheet_blank as sheet_blank
 from ._blank import spec_blank as spec_blank
 from ._hobbed_request import HobbedRequest as HobbedRequest
 from ._hobbed_request import StickGrind as StickGrind
+from ._milled_request import FREE as FREE
+from ._milled_request import TOGETHER as TOGETHER
 from ._milled_request import MilledRequest as MilledRequest
 from ._milled_request import PinionLimits as PinionLimits
 from ._milled_request import PinionMethod as PinionMethod

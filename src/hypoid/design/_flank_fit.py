@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import degrees
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,7 @@ from ._joint_fit import JointFit, Unknowns
 from ._pinion_methods import HEAD
 from ._pinion_model import ROOT_PLACES, UM, PinionModel
 from ._pinion_task import PinionTask, Stage
-from ._settings_model import INDEX, MOTIONS, ROLL, settings_of
+from ._settings_model import ANGLES, INDEX, MOTIONS, ROLL, settings_of
 
 Array = np.ndarray[Any, Any]
 ADVICE = (*HEAD, *ROLL[:3], "helical_motion", "blade_curvature", *MOTIONS)
@@ -114,6 +115,16 @@ def _held(joint: JointFit) -> tuple[str, ...]:
                 f"{entry.name} stands at its {'upper' if sign > 0.0 else 'lower'} bound, {bound:.6g}"
             )
     return tuple(words)
+
+
+def _worded(name: str, value: float) -> str:
+    """A value of an unknown as a person writes it."""
+    plain = name.rpartition(".")[2]
+    if plain in ANGLES:
+        return f"{degrees(value):.6g} deg"
+    if plain == "ratio_of_roll" or plain.startswith("modified_roll"):
+        return f"{value:.6g}"
+    return f"{value:.6g} {'mm/rad' if plain == 'helical_motion' else 'mm'}"
 
 
 def _helpful(

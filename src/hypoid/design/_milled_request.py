@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from math import degrees
 from typing import Literal
 
 from hypoid.blank import BlankRequest
@@ -17,6 +18,18 @@ PinionMethod = Literal[
     "tilt", "modified-roll", "generated", "fixed-setting", "helical", "universal", "completing",
     "duplex-helical",
 ]  # fmt: skip
+FREE = (
+    "tilt_angle", "swivel_angle", "helical_motion", "blade_curvature",
+    *(f"modified_roll_{order}" for order in range(2, 7)),
+    *(
+        f"{axis}_{order}"
+        for axis in (
+            "radial_distance", "tilt_angle", "swivel_angle", "blank_offset", "machine_root_angle",
+            "machine_center_to_back",
+        )
+        for order in (1, 2)
+    ),
+)  # fmt: skip
 TOGETHER: tuple[PinionMethod, ...] = (
     "completing",
     "duplex-helical",
@@ -47,13 +60,27 @@ class PinionLimits:
                 found.append(Problem("pinion.free", f'"{name}"', expected, f"# {name}"))
         for name, (low, high) in self.ranges.items():
             if low > high:
+                given = f"{_worded(name, low)} to {_worded(name, high)}"
                 expected = "the least first, then the greatest"
-                found.append(Problem(f"pinion.range.{name}", f"{low:g}, {high:g}", expected, ""))
+                example = f"[{_worded(name, high)!r}, {_worded(name, low)!r}]".replace("'", '"')
+                found.append(
+                    Problem(f"pinion.range.{name}", given, expected, f"{name} = {example}")
+                )
             elif name in self.fixed and not low <= self.fixed[name] <= high:
-                expected = "a value within pinion.range, or no such range"
-                given = f"{self.fixed[name]:g}"
-                found.append(Problem(f"pinion.fixed.{name}", given, expected, ""))
+                ends = f"{_worded(name, low)} to {_worded(name, high)}"
+                expected = f"a value within pinion.range, {ends}, or no such range"
+                given = _worded(name, self.fixed[name])
+                example = f'{name} = "{_worded(name, low)}"'
+                found.append(Problem(f"pinion.fixed.{name}", given, expected, example))
         return found
+
+
+def _worded(name: str, value: float) -> str:
+    """A setting's value with its unit."""
+    if name.endswith("angle"):
+        return f"{degrees(value):.6g} deg"
+    unit = {"ratio_of_roll": "", "helical_motion": " mm/rad"}.get(name, " mm")
+    return f"{value:.6g}{unit}"
 
 
 @dataclass(frozen=True)

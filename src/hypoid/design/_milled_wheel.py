@@ -104,14 +104,7 @@ def milled_wheel(request: MilledRequest, blank: PairBlank) -> MilledWheel:
 
     asked, spiral = by_side, own.mean_spiral_angle
     cut = cut_for(asked, spiral)
-    least = LEAST_POINT * blank.mean_normal_module
-    if not cut.point_width > least:
-        expected = (
-            f"a slot that is wider at its root: its point width is {cut.point_width:.3g} mm, at least "
-            f"{least:.3g} mm is wanted; lower the depth or the pressure angle"
-        )
-        given = f"{blank.depths.whole_depth if blank.depths else 0.0:.4g} mm"
-        raise DesignError([Problem("blank.depth_factor", given, expected, "depth_factor = 1.8")])
+    _check_point(blank, cut)
     settings, flanks = _flanks(blank, cut, height, edge, generated)
     for _ in range(
         CORRECTIONS if generated else 0
@@ -123,6 +116,7 @@ def milled_wheel(request: MilledRequest, blank: PairBlank) -> MilledWheel:
         asked = asked[0] + off[0], asked[1] + off[1]
         spiral += own.mean_spiral_angle - 0.5 * sum(at.spiral for at in seen)
         cut = cut_for(asked, spiral)
+        _check_point(blank, cut)
         settings, flanks = _flanks(blank, cut, height, edge, generated)
     concave, convex = flanks
     if not (concave.generated and convex.generated):
@@ -134,6 +128,19 @@ def milled_wheel(request: MilledRequest, blank: PairBlank) -> MilledWheel:
         )
         raise DesignError([Problem("wheel.method", given, expected, 'method = "formate"')])
     return MilledWheel(cut, settings, slots, edges, edge, height, concave, convex)
+
+
+def _check_point(blank: PairBlank, cut: WheelCut) -> None:
+    """DesignError where the slot leaves no blade point."""
+    least = LEAST_POINT * blank.mean_normal_module
+    if cut.point_width > least:
+        return
+    expected = (
+        f"a slot that is wider at its root: its point width is {cut.point_width:.3g} mm, at least "
+        f"{least:.3g} mm is wanted; lower the depth or the pressure angle"
+    )
+    given = f"{blank.depths.whole_depth if blank.depths else 0.0:.4g} mm"
+    raise DesignError([Problem("blank.depth_factor", given, expected, "depth_factor = 1.8")])
 
 
 def _flanks(
@@ -148,7 +155,7 @@ def _flanks(
         ratio_of_roll=cut.ratio_of_roll,
         roll_to_blade_ratio=0.0,
         machine_center_to_back=cut.machine_center_to_back,
-        sliding_base=-cut.deeper,
+        sliding_base=cut.sliding_base,
         generated=generated,
     )
     head = FaceMillHead.spread_blade(

@@ -5,20 +5,27 @@ A flank alone, or both flanks of a slot by one setting; either is one joint fit,
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+
+import numpy as np
 
 from hypoid.flank import SIDES, Side
 
 from ._flank_fit import FlankFit, flank_fits
 from ._joint_fit import Wish
 from ._milled_wheel import pitch_cone
+from ._motion import Motion, motion_of
 from ._pinion_methods import APART, BASE, HEAD
-from ._pinion_model import CORNER_SPREAD, ROOT_SPREAD, pinion_model
+from ._pinion_model import CORNER_SPREAD, ROOT_SPREAD, pinion_model, target_places
 from ._pinion_start import conjugate_places, conjugate_start, plain_places, plain_start
 from ._pinion_task import PinionTask, Stage, goals, led, run
 from ._settings_model import INDEX
+from ._target import MotionTarget
 
+CORRECTIONS = 4  # of a target's transmission error
+MET = 0.005  # of the asked transmission error
 FEWEST = 20  # points of the conjugate that a fit needs
 
 
@@ -28,12 +35,12 @@ def fit_pinion(task: PinionTask) -> dict[Side, FlankFit]:
         if any(c.there.sum() < FEWEST for c in task.conjugates.values()):
             return {}
         best = _best(task, [lambda: _from_plain(task, SIDES), lambda: _from_between(task)])
-        return {} if best is None else flank_fits(task, best)
+        return {} if best is None else flank_fits(task, _moved(task, best))
     found: dict[Side, FlankFit] = {}
     for side in SIDES:
         best = _alone(task, side)
         if best is not None:
-            found |= flank_fits(task, best)
+            found |= flank_fits(task, _moved(task, best))
     return found
 
 
@@ -58,6 +65,48 @@ def _best(task: PinionTask, starts: Sequence[Callable[[], Stage | None]]) -> Sta
         if best is not None and best.largest <= task.request.tolerance:
             break
     return best
+
+
+def _moved(task: PinionTask, stage: Stage) -> Stage:
+    """The stage with the asked motion met: the target's amplitude corrected by what the fit's ease-off makes."""
+    asked = {
+        m.side: target
+        for m in stage.models
+        if isinstance(target := task.target(m.side), MotionTarget)
+    }
+    aims = dict(asked)
+    best, least = stage, math.inf
+    for _ in range(CORRECTIONS if asked else 0):
+        seen = {side: _motion(task, stage, side) for side in asked}
+        if any(motion is None for motion in seen.values()):
+            break
+        off = max(m.off(asked[s].transmission_error) for s, m in seen.items() if m is not None)
+        if off < least:
+            best, least = stage, off
+        if off < MET:
+            break
+        for side, motion in seen.items():
+            assert motion is not None
+            ratio = asked[side].transmission_error / max(motion.peak_to_peak, 1e-9)
+            error = aims[side].transmission_error * min(max(ratio, 0.5), 2.0)
+            aims[side] = replace(aims[side], transmission_error=error)
+        models = tuple(
+            m.asked(aims[m.side], task.blank) if m.side in aims else m for m in stage.models
+        )
+        again = run(task, replace(stage, models=models), task.free, _spread(task))
+        if again is None:
+            break
+        stage = again
+    return best
+
+
+def _motion(task: PinionTask, stage: Stage, side: Side) -> Motion | None:
+    """The motion of a fitted flank's ease-off."""
+    assert stage.fit is not None
+    k = [model.side for model in stage.models].index(side)
+    model, look = stage.models[k], stage.fit.looks[k]
+    places = target_places(model.conjugate, task.blank)
+    return motion_of(places, np.where(model.there, look.ease_off, np.nan))
 
 
 def _from_plain(task: PinionTask, sides: Sequence[Side]) -> Stage | None:

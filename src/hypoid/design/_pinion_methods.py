@@ -126,6 +126,7 @@ def bounds_of(limits: PinionLimits, blank: PairBlank) -> Bounds:
         low, high = sorted(chain_value(name, v, blank) for v in ends)
         least, most = bounds.get(name, (-math.inf, math.inf))
         bounds[name] = max(low, least), min(high, most)
+    bounds |= {name: (v, v) for name, v in limits.fixed.items() if name not in INDEX}
     return bounds
 
 

@@ -31,9 +31,10 @@ def conjugate_start(wheel: MilledWheel, blank: PairBlank, side: Side) -> Array:
     sine, cosine = math.sin(root), math.cos(root)
     height = cut.depth + own.mean_addendum + (blank.clearance or 0.0)
     along = cut.radial_distance * math.cos(cut.cradle_angle)
-    x = sine * along - cosine * cut.deeper + height * cosine
+    deeper = -cut.sliding_base
+    x = sine * along - cosine * deeper + height * cosine
     y = -cut.radial_distance * math.sin(cut.cradle_angle)
-    z = height * sine - (cosine * along + sine * cut.deeper - cut.machine_center_to_back)
+    z = height * sine - (cosine * along + sine * deeper - cut.machine_center_to_back)
     q = math.atan2(-y, x)
     settings = MachineSettings(
         radial_distance=math.hypot(x, y),
@@ -94,6 +95,7 @@ def plain_start(blank: PairBlank, cutter_radius: float, side: Side) -> Array:
         roll_to_blade_ratio=0.0,
         swivel_angle=cut.cradle_angle - 0.5 * math.pi,
         machine_center_to_back=cut.machine_center_to_back,
+        sliding_base=cut.sliding_base,
     )
     i = 0 if side == "concave" else 1
     blade = {"point_radius": cut.point_radii[i], "blade_angle": cut.blade_angles[i]}

@@ -15,6 +15,8 @@ import numpy as np
 from hypoid.geometry import Problem
 
 Array = np.ndarray[Any, Any]
+KEPT = 0.85  # of the flank's height and half its length, on which a path is kept
+NEAR = 0.35  # of x about its place, where the flank's height is read
 
 
 @dataclass(frozen=True)
@@ -74,26 +76,27 @@ class MotionTarget:
     Along each line of contact the ease-off grows with the square of the distance from the path, so
     that the path runs through ``place`` and a compound of ``marking_thickness`` is wiped off over
     ``pattern_length`` of the face. ``path_tilt`` leans the path: how far it moves lengthwise, in x,
-    while it climbs by one y.
+    while it climbs by one y; None leans it just as far as keeps it on the flank over the whole pitch.
     """
 
     transmission_error: float = 50e-6  # rad peak to peak over one pitch, wheel
     pattern_length: float = 0.5  # of the face width
     marking_thickness: float = 0.00635
     place: tuple[float, float] = (0.0, 0.0)  # (x, y)
-    path_tilt: float = 0.0
+    path_tilt: float | None = None
 
     def at(self, places: TargetPlaces) -> Array:
         """Ease-off at places, mm (n,)."""
         x0, y0 = self.place
         x, y = places.x - x0, places.y - y0
         # turn at the place itself, from the plane through all of them
-        basis = np.stack([np.ones_like(x), x, y], axis=1)
-        there = np.isfinite(places.turn)
-        middle = float(np.linalg.lstsq(basis[there], places.turn[there], rcond=None)[0][0])
+        middle, by_x, by_y = _plane(x, y, places.turn)
         half = 0.5 * np.asarray(places.wheel_pitch)
         along_path = ((places.turn - middle) / half) ** 2
-        off_path = x - self.path_tilt * y
+        tilt = self.path_tilt
+        if tilt is None:
+            tilt = _least_tilt(places, (x0, y0), (by_x, by_y))
+        off_path = x - tilt * y
         across = self.marking_thickness * (off_path / self.pattern_length) ** 2
         return self.transmission_error * places.wheel_lever * along_path + across
 
@@ -114,6 +117,31 @@ class MotionTarget:
             given, expected = f"{list(self.place)}", "two numbers between -1 and 1, on the flank"
             found.append(Problem(f"{path}.place", given, expected, "place = [0.0, 0.0]"))
         return found
+
+
+def _plane(x: Array, y: Array, turn: Array) -> tuple[float, float, float]:
+    """Value, and slopes by x and y, of the plane through turns at places about (0, 0)."""
+    there = np.isfinite(turn)
+    basis = np.stack([np.ones_like(x), x, y], axis=1)[there]
+    value, by_x, by_y = np.linalg.lstsq(basis, turn[there], rcond=None)[0]
+    return float(value), float(by_x), float(by_y)
+
+
+def _least_tilt(
+    places: TargetPlaces, place: tuple[float, float], slopes: tuple[float, float]
+) -> float:
+    """The least lean of a path that keeps it on the flank for half a pitch either way of its place."""
+    there = np.isfinite(places.turn)
+    (x0, y0), (by_x, by_y) = place, slopes
+    near = there & (np.abs(places.x - x0) < NEAR)
+    tall = KEPT * min(float(places.y[near].max()) - y0, y0 - float(places.y[near].min()))
+    half = 0.5 * float(np.mean(places.wheel_pitch))
+    if tall <= 0.0 or abs(by_x) < 1e-6 * abs(by_y):
+        return 0.0
+    wanted = half / tall - abs(by_y)  # turn that the path must gain lengthwise, per y
+    tilt = max(0.0, wanted / abs(by_x))
+    wide = KEPT * (1.0 - abs(x0))
+    return float(np.copysign(min(tilt, wide / tall), by_x * by_y))
 
 
 Target = EaseOffTarget | MotionTarget

@@ -28,6 +28,12 @@ class WheelCut:
     point_width: float
     depth: float  # of the tips below the mean point, square to the root line, mm
     deeper: float = 0.0  # of the tips below the blank's root cone there, mm
+    root_base: float = 0.0  # sliding base that puts the tips on the blank's root cone, mm
+
+    @property
+    def sliding_base(self) -> float:
+        """As set, mm."""
+        return self.root_base - self.deeper
 
 
 def wheel_cut(
@@ -59,9 +65,11 @@ def wheel_cut(
     """
     root, taper = blank.root_angle, blank.dedendum_angle
     z, rho = blank.position(blank.mean_cone_distance, 0.0)
-    back = blank.root_apex_beyond_crossing_point
+    root_apex = blank.root_apex_beyond_crossing_point
+    depth = cos(root) * rho - sin(root) * (z + root_apex) + deeper
+    # a roll is true where the cradle's axis meets the work's at the pitch apex; a form cut has none
+    back = blank.pitch_apex_beyond_crossing_point if generated else root_apex
     along = sin(root) * rho + cos(root) * (z + back)
-    depth = cos(root) * rho - sin(root) * (z + back) + deeper
     asked = blank.mean_spiral_angle if spiral_angle is None else spiral_angle
     beta = atan(tan(asked) / cos(taper))  # in the root plane
     across, along_centre = cutter_radius * cos(beta), along - cutter_radius * sin(beta)
@@ -82,4 +90,5 @@ def wheel_cut(
         point_width=width,
         depth=depth,
         deeper=deeper,
+        root_base=sin(root) * (root_apex - back),
     )

@@ -50,6 +50,7 @@ def design_text(design: MilledDesign) -> str:
             f"  root as cut less the blank's: {low:.0f} um at the toe, {mean:.0f} at the mean point, "
             f"{high:.0f} at the heel"
         )
+        remarks += [f"  {words}" for words in fit.held]
         remarks += [f"  not determined by the target: {words}" for words in fit.undetermined]
     remarks += [f"Assumed {a.value}: {a.reason}" for a in request.assumed]
     return sheet_text(design.spec, origins, tuple(remarks))

@@ -9,6 +9,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from hypoid.design import FREE
+
 from ._keys import (
     DEG,
     EPS,
@@ -18,11 +20,13 @@ from ._keys import (
     Contact,
     DesignTable,
     Length,
+    LengthPerAngle,
     Pair,
     Table,
     any_angle,
     any_length,
     key,
+    lead,
 )
 
 Share = Annotated[float, Field(ge=-1, le=1)]
@@ -62,15 +66,72 @@ class RequestPair(Pair):
     )  # fmt: skip
 
 
+class FixedTable(Table):
+    """[pinion.fixed]: settings that keep a value, in the words and signs of a summary sheet."""
+
+    radial_distance: Length | None = any_length("64.2 mm")
+    tilt_angle: Angle | None = any_angle("20 deg")
+    swivel_angle: Angle | None = any_angle("-50 deg")
+    blank_offset: Length | None = any_length("-15 mm")
+    machine_root_angle: Angle | None = any_angle("-5 deg")
+    machine_center_to_back: Length | None = any_length("2 mm")
+    sliding_base: Length | None = any_length("15 mm")
+    ratio_of_roll: float | None = key(
+        "a plain number above 0, up to 1000", 3.2, default=None, gt=0, le=1000
+    )
+    helical_motion: LengthPerAngle | None = lead("8 mm/rad")
+    blade_angle: Angle | None = any_angle("20 deg")
+    point_radius: Length | None = any_length("62 mm")
+    cutter_radius: Length | None = any_length("63.5 mm")
+    point_width: Length | None = any_length("1.6 mm")
+
+
+def _range(example: list[str]) -> object:
+    return key("two values, the least first", example, default=None, min_length=2, max_length=2)
+
+
+class RangeTable(Table):
+    """[pinion.range]: the least and the greatest that a setting may take."""
+
+    radial_distance: list[Length] | None = _range(["50 mm", "90 mm"])  # pyright: ignore[reportAssignmentType]
+    tilt_angle: list[Angle] | None = _range(["0 deg", "15 deg"])  # pyright: ignore[reportAssignmentType]
+    swivel_angle: list[Angle] | None = _range(["-60 deg", "0 deg"])  # pyright: ignore[reportAssignmentType]
+    blank_offset: list[Length] | None = _range(["-40 mm", "40 mm"])  # pyright: ignore[reportAssignmentType]
+    machine_root_angle: list[Angle] | None = _range(["-10 deg", "60 deg"])  # pyright: ignore[reportAssignmentType]
+    machine_center_to_back: list[Length] | None = _range(["-10 mm", "10 mm"])  # pyright: ignore[reportAssignmentType]
+    sliding_base: list[Length] | None = _range(["-30 mm", "30 mm"])  # pyright: ignore[reportAssignmentType]
+    ratio_of_roll: list[float] | None = _range(["2.5", "4"])  # pyright: ignore[reportAssignmentType]
+    helical_motion: list[LengthPerAngle] | None = _range(["-10 mm/rad", "10 mm/rad"])  # pyright: ignore[reportAssignmentType]
+    blade_angle: list[Angle] | None = _range(["14 deg", "26 deg"])  # pyright: ignore[reportAssignmentType]
+    point_radius: list[Length] | None = _range(["55 mm", "70 mm"])  # pyright: ignore[reportAssignmentType]
+    cutter_radius: list[Length] | None = _range(["60 mm", "67 mm"])  # pyright: ignore[reportAssignmentType]
+    point_width: list[Length] | None = _range(["1.2 mm", "2 mm"])  # pyright: ignore[reportAssignmentType]
+
+
 class RequestPinion(Table):
-    """[pinion]."""
+    """[pinion]; `free`, `fixed`, `range` and `machine` say which settings a fit may move, and how far."""
 
     teeth: int = key("a whole number from 1 to 1000", 13, ge=1, le=MOST_TEETH)
     hand: Literal["left", "right"] = key('"left" or "right"', "left", default="left")
     mean_spiral_angle: Angle | None = _spiral()  # pyright: ignore[reportAssignmentType]
-    method: Literal["tilt", "modified-roll", "generated", "helical", "universal"] = key(
-        '"tilt", "modified-roll", "generated", "helical" or "universal"', "tilt", default="tilt"
-    )
+    method: Literal[
+        "tilt", "modified-roll", "generated", "fixed-setting", "helical", "universal", "completing",
+        "duplex-helical",
+    ] = key(
+        '"tilt", "modified-roll", "generated", "fixed-setting", "helical", "universal", "completing" or '
+        '"duplex-helical"',
+        "tilt", default="tilt",
+    )  # fmt: skip
+    machine: Literal["gleason-106", "gleason-122", "gleason-463"] | None = key(
+        '"gleason-106", "gleason-122" or "gleason-463", whose dials bound the settings', "gleason-122",
+        default=None,
+    )  # fmt: skip
+    free: list[str] = key(
+        "names of settings that move beside the method's: " + ", ".join(FREE), ["blade_curvature"],
+        default=[],
+    )  # fmt: skip
+    fixed: FixedTable = key("a table", {"tilt_angle": "10 deg"}, default=FixedTable())
+    range: RangeTable = key("a table", {"tilt_angle": ["0 deg", "15 deg"]}, default=RangeTable())
     edge_radius: Length | None = key(
         "a length of 0 or more, of the blades", "0.6 mm", default=None, ge=0, le=LARGEST
     )

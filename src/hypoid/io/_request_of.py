@@ -12,15 +12,19 @@ from hypoid.design import (
     HobbedRequest,
     MilledRequest,
     MotionTarget,
+    PinionLimits,
     Target,
 )
 
 from ._defaults import defaults_used
-from ._request_file import RequestBlank, RequestFile, TargetTable
+from ._request_file import RequestBlank, RequestFile, RequestPinion, TargetTable
 from ._request_hobbed import exact_of, grind_of, hobbing_assumed
 from ._request_rules import MOTION, TYPE_I
 
 _USUAL = EaseOffTarget()
+_NO_VALUE = (
+    "contact.drive", "contact.coast", "pinion.free", "pinion.fixed", "pinion.range", "pinion.machine",
+)  # fmt: skip
 
 
 def request_of(file: RequestFile) -> MilledRequest | HobbedRequest | ExactFaceHobbedSpec:
@@ -40,9 +44,7 @@ def request_of(file: RequestFile) -> MilledRequest | HobbedRequest | ExactFaceHo
         "contact": contact,
     }
     assumed = [Assumption(a.value, a.reason) for a in file.assumed]
-    assumed += [
-        a for a in defaults_used(tables) if a.value not in ("contact.drive", "contact.coast")
-    ]
+    assumed += [a for a in defaults_used(tables) if a.value not in _NO_VALUE]
     assumed += [*_guide_values(file.blank), *_usual_targets(file), *hobbing_assumed(file)]
     if cutting.process == "face-hobbed" and cutting.cutter == "exact":
         return exact_of(file, tuple(assumed))
@@ -87,7 +89,17 @@ def request_of(file: RequestFile) -> MilledRequest | HobbedRequest | ExactFaceHo
         return HobbedRequest(
             **common, grind=grind_of(file), equal_spacing=cutting.equal_spacing is not False
         )
-    return MilledRequest(**common)
+    return MilledRequest(**common, limits=_limits(pinion))
+
+
+def _limits(pinion: RequestPinion) -> PinionLimits:
+    ranges = pinion.range.model_dump(exclude_none=True)
+    return PinionLimits(
+        machine=pinion.machine or "",
+        free=tuple(pinion.free),
+        fixed=pinion.fixed.model_dump(exclude_none=True),
+        ranges={name: (low, high) for name, (low, high) in ranges.items()},
+    )
 
 
 def _taper(blank: RequestBlank) -> Any:

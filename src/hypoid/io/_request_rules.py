@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from hypoid.design import FREE, TOGETHER
 from hypoid.geometry import Problem
 
 from ._document import Document, assigned, left_out, number_at, shown, table_at, value_at
@@ -47,6 +48,7 @@ def request_rules(document: Document) -> Iterator[Problem]:
             expected,
             assigned("offset", "0 mm"),
         )
+    yield from _pinion_limits(document)
     for side in ("drive", "coast"):
         yield from _target(document, f"contact.{side}")
     yield from hobbing_rules(document)
@@ -117,3 +119,26 @@ def _target(document: Document, path: str) -> Iterator[Problem]:
             yield Problem(
                 f"{path}.{name}", shown(table[name]), expected, left_out(name, table[name])
             )
+
+
+def _pinion_limits(document: Document) -> Iterator[Problem]:
+    """Which settings may move: names that there are, and no joint cutter where flanks are cut one by one."""
+    pinion = table_at(document, "pinion")
+    free = pinion.get("free")
+    for name in free if isinstance(free, list) else ():
+        if name not in FREE:
+            expected = "names among " + ", ".join(FREE)
+            yield Problem("pinion.free", shown(name), expected, 'free = ["blade_curvature"]')
+    together = pinion.get("method") in TOGETHER
+    for table in ("fixed", "range"):
+        for name in ("cutter_radius", "point_width", "point_radius"):
+            value = table_at(document, f"pinion.{table}").get(name)
+            if value is not None and together == (name == "point_radius"):
+                expected = (
+                    "cutter_radius and point_width: one cutter cuts both flanks"
+                    if together
+                    else "point_radius: each flank has its own cutter with this method"
+                )
+                yield Problem(
+                    f"pinion.{table}.{name}", shown(value), expected, left_out(name, value)
+                )

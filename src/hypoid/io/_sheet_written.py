@@ -11,11 +11,11 @@ from math import degrees
 from typing import Any
 
 from hypoid.blank import GivenBlank
-from hypoid.design import BladeSpec, FlankSpec, MemberSpec, SummarySheetSpec
+from hypoid.design import BladeSpec, FlankSpec, MemberSpec, SummarySheetSpec, cut_apart
 
 from ._document import toml
 
-COMMENT = 58  # column where comments begin
+COMMENT = 57  # column where comments begin
 _ANGLES = {
     "cradle_angle", "tilt_angle", "swivel_angle", "machine_root_angle", "pitch_angle",
     "mean_spiral_angle", "face_angle", "root_angle",
@@ -96,20 +96,32 @@ def _wheel(member: MemberSpec, origins: Origins) -> Iterator[str]:
 
 def _pinion(member: MemberSpec, origins: Origins) -> Iterator[str]:
     yield from _member("pinion", member, origins)
+    outside, inside = _mill(member.concave), _mill(member.convex)
+    together = not cut_apart(member)
     yield "[pinion.cutter]"
-    yield _line("type", "face-mill", "one a flank")
+    yield _line("type", "face-mill", "both flanks by one" if together else "one a flank")
+    if together:
+        yield _line(
+            "diameter", _length(outside.point_radius + inside.point_radius), origins.pinion_blade
+        )
+        yield _line("point_width", _length(2.0 * (outside.land or 0.0)), origins.pinion_blade)
+        yield ""
+        yield f"[pinion.settings]  # {origins.pinion_settings['concave']}"
+        yield from _settings(member.concave)
     yield ""
     yield "[pinion.blade]"
-    yield _line("edge_radius", _length(member.concave.blade.edge_radius), origins.edge_radius)
+    yield _line("edge_radius", _length(outside.edge_radius), origins.edge_radius)
     for side, flank in (("concave", member.concave), ("convex", member.convex)):
-        yield ""
-        yield f"[pinion.{side}.settings]  # {origins.pinion_settings[side]}"
-        yield from _settings(flank)
+        if not together:
+            yield ""
+            yield f"[pinion.{side}.settings]  # {origins.pinion_settings[side]}"
+            yield from _settings(flank)
         yield ""
         yield f"[pinion.{side}.blade]  # {'outside' if side == 'concave' else 'inside'} blade"
         blade = _mill(flank)
         yield _line("angle", _angle(blade.angle), origins.pinion_blade)
-        yield _line("point_diameter", _length(2.0 * blade.point_radius), origins.pinion_blade)
+        if not together:
+            yield _line("point_diameter", _length(2.0 * blade.point_radius), origins.pinion_blade)
         if blade.curve != "straight":
             yield _line("profile", blade.curve)
             yield _line("radius", _length(blade.curve_radius), origins.pinion_blade)
@@ -162,4 +174,4 @@ def _length(value: float) -> str:
 
 def _line(key: str, value: Any, why: str = "") -> str:
     text = f"{key} = {toml(value)}"
-    return f"{text:<{COMMENT - 2}}  # {why}" if why else text
+    return f"{text:<{COMMENT}} # {why}" if why else text
