@@ -3,9 +3,10 @@
     python benchmarks/random_hobbed_blanks.py 60 docs/validation/random-hobbed-blanks.csv
 
 The blanks are those of `random_blanks.py`, of uniform depth as face hobbing has it, with a head whose
-blades lean by 12 to 22 deg. A pair counts as sound where its flanks meet inside at the middle of the
-mesh, both pinion flanks, cut in one setting-up, are within the tolerance of their targets, and
-undercut, if there is any, is reported. Every other one ends with a reason. The draw is seeded.
+blades lean by 12 to 22 deg. Without tilt the blade radii must crown, so that their spacing is free. A
+pair counts as sound where its flanks meet inside at the middle of the mesh, both pinion flanks, cut in
+one setting-up, are within the tolerance of their targets, and undercut, if there is any, is reported.
+Every other one ends with a reason. The draw is seeded.
 """
 
 from __future__ import annotations
@@ -59,7 +60,7 @@ def request_of(one: Draw, random: np.random.Generator) -> HobbedRequest:
     grind = StickGrind(pinion_curve_radius=None)
     return HobbedRequest(
         f"random {one.number}", "", (), blank, wheel, pinion, grind, drive=target, coast=target,
-        tolerance=0.008 * max(size, 0.5),
+        tolerance=0.008 * max(size, 0.5), equal_spacing=pinion not in WITHOUT_TILT,
     )  # fmt: skip
 
 

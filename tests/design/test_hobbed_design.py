@@ -55,7 +55,7 @@ def designed(case: str) -> tuple[HobbedDesign, GearPair]:
     request = request_2005()
     if case != "2005":
         crowned = EaseOffTarget(0.020, 0.020)
-        request = replace(request, drive=crowned, coast=crowned, tolerance=0.006)
+        request = replace(request, drive=crowned, coast=crowned, tolerance=0.007)
     if case == "free spacing":
         request = replace(request, equal_spacing=False)
     if case == "no tilt":
