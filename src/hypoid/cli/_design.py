@@ -116,7 +116,10 @@ def _made(spec: Spec) -> _Made:
     if isinstance(spec, ExactFaceHobbedSpec):
         exact = design_exact(spec)
         return _Made(exact, exact_text(exact), {}, {})
-    given, expected = "a design whose settings are given", 'process = "face-milled" or "face-hobbed"'
+    given, expected = (
+        "a design whose settings are given",
+        'process = "face-milled" or "face-hobbed"',
+    )
     raise DesignError([Problem("cutting.process", given, expected, 'process = "face-milled"')])
 
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from math import sin
+from typing import Any
 
 from hypoid.blank import (
     PairBlank,
@@ -143,7 +143,13 @@ def _wheel(request: HobbedRequest, blank: PairBlank, wheel: HobbedWheel) -> Memb
     own = blank.wheel
     given = given_blank(own, wheel.deeper)
     return MemberSpec(
-        own.teeth, own.hand, given, flank(0), flank(1), blade_groups=plan.groups, spacing=plan.spacing
+        own.teeth,
+        own.hand,
+        given,
+        flank(0),
+        flank(1),
+        blade_groups=plan.groups,
+        spacing=plan.spacing,
     )
 
 
@@ -164,7 +170,9 @@ def _pinion(
             curve_radius=1.0 / bend if bend else 0.0,
             toprem=toprem and (*toprem, "along-flank"),
         )
-        more = {"blade.profile", "blade.radius"} if request.grind.pinion_curve_radius is None else ()
+        more = (
+            {"blade.profile", "blade.radius"} if request.grind.pinion_curve_radius is None else ()
+        )
         return FlankSpec(method, "basic", dials, blade, _AT_FLANK | frozenset(more))
 
     return MemberSpec(
@@ -178,9 +186,7 @@ def _pinion(
     )
 
 
-def _stick(
-    request: HobbedRequest, eccentric: float, radius: float, angle: float
-) -> Mapping[str, float]:
+def _stick(request: HobbedRequest, eccentric: float, radius: float, angle: float) -> dict[str, Any]:
     grind = request.grind
     return {
         "radius": radius,

@@ -42,10 +42,16 @@ from ._target import MotionTarget, Target
 Array = np.ndarray[Any, Any]
 FEWEST = 20  # points of a conjugate that a fit needs
 LEADING = math.radians(0.02)  # how firmly tilt is led to zero
-RADIUS_SPREAD = 0.4  # mm that a blade radius may stray from the head's, at the price of 1 um
+RADIUS_SPREAD = 0.01  # of the head's radius, that a blade's may stray at the price of 1 um
 ANGLE_SPREAD = math.radians(0.5)
 MOTION_PASSES, MOTION_MET = 3, 0.004  # of the depth asked for
-ADVICE = (*HEAD, *ROLL[:3], "helical_motion", *(f"{side}.blade_curvature" for side in SIDES), *MOTIONS)
+ADVICE = (
+    *HEAD,
+    *ROLL[:3],
+    "helical_motion",
+    *(f"{side}.blade_curvature" for side in SIDES),
+    *MOTIONS,
+)
 
 
 @dataclass(frozen=True)
@@ -122,7 +128,9 @@ def fit_hobbed(
     """
     cone = pitch_cone(blank, "pinion")
     mates: dict[Side, Side] = {"concave": "convex", "convex": "concave"}
-    found = {side: conjugate(blank, wheel.flank(mates[side]), cone) for side in SIDES}
+    found: dict[Side, Conjugate] = {
+        side: conjugate(blank, wheel.flank(mates[side]), cone) for side in SIDES
+    }
     if min(c.there.sum() for c in found.values()) < FEWEST:
         return None
     thickness = pinion_thickness(blank, request.normal_backlash)
@@ -131,10 +139,10 @@ def fit_hobbed(
     order = ("plain", "conjugate") if generated else ("conjugate", "plain")
     best: HobbedFit | None = None
     for which in order:
-        if which == "plain":
-            start = plain_start(plan, blank, thickness)
-        else:
-            start = None if generated else conjugate_start(plan, blank, wheel)
+        plain = which == "plain"
+        start = (
+            plain_start(plan, blank, thickness) if plain else conjugate_start(plan, blank, wheel)
+        )
         fit = None if start is None else _fitted(request, blank, start, found, targets, thickness)
         if best is None or (fit is not None and fit.fit.cost < best.fit.cost):
             best = fit
@@ -177,9 +185,14 @@ def _fitted(
             lead |= {"swivel_angle": Wish(stage[0][PLACE["swivel_angle"]], math.radians(1.0))}
             stage = work.run(stage[0], first, lead, stage[1].look.memory, limits, steps=80)
         if stage is not None:
-            rested = stage[0].copy()
+            rested, swivel = stage[0].copy(), float(stage[0][PLACE["swivel_angle"]])
             rested[[PLACE[name] for name in freedom.rest]] = 0.0
-            stage = work.run(rested, own, {}, stage[1].look.memory, limits)
+            # without tilt the swivel only says where the cutter's turn counts from
+            kept = {
+                side: (s, turn - swivel, phi, root_turn - swivel, root_phi)
+                for side, (s, turn, phi, root_turn, root_phi) in stage[1].look.memory.items()
+            }
+            stage = work.run(rested, own, {}, kept, limits)
     if stage is None:
         return None
     vector, fit = stage
@@ -204,7 +217,9 @@ def _fitted(
     return work.result(vector, fit, free, limits)
 
 
-def _with_targets(model: JointModel, targets: Mapping[Side, Target], blank: PairBlank) -> JointModel:
+def _with_targets(
+    model: JointModel, targets: Mapping[Side, Target], blank: PairBlank
+) -> JointModel:
     """The model with other targets."""
     sides = {
         side: replace(own, wanted=targets[side].at(target_places(own.conjugate, blank)))
@@ -235,8 +250,9 @@ def _aimed_again(
             continue
         places = target_places(own.conjugate, blank)
         lever, pitch = places.wheel_lever, float(places.wheel_pitch)
+        c = own.conjugate
         asked, got = (
-            motion_depth((GRID_ROWS, GRID_COLUMNS), own.there, e / lever, own.conjugate.roll, pitch)
+            motion_depth((GRID_ROWS, GRID_COLUMNS), own.there, e / lever, c.roll, pitch)
             for e in (own.wanted, seen.misfit[side] + own.wanted)
         )
         share = asked / got if got > 0.0 else math.nan
@@ -268,7 +284,7 @@ class _Work:
         wished: dict[str, Wish] = {}
         for i, side in enumerate(SIDES):
             wished[f"{side}.blade_angle"] = Wish(cut.angles[i], ANGLE_SPREAD)
-            wished[f"{side}.blade_radius"] = Wish(radius, RADIUS_SPREAD)
+            wished[f"{side}.blade_radius"] = Wish(radius, RADIUS_SPREAD * radius)
         return wished
 
     def limits(self, blank: PairBlank, ratio: float) -> dict[str, float]:
@@ -278,9 +294,7 @@ class _Work:
         own |= {f"{side}.{BLADES[name]}": held[name] for side in SIDES for name in BLADE}
         return own
 
-    def look(
-        self, vector: Array, more: Mapping[str, Wish], memory: Memory
-    ) -> JointSeen | None:
+    def look(self, vector: Array, more: Mapping[str, Wish], memory: Memory) -> JointSeen | None:
         return self.model.look(vector, {**self.wishes, **more}, memory)
 
     def run(
@@ -326,8 +340,8 @@ class _Work:
             )
         plan, spacing, thickness = self.start.plan, None, seen.thickness
         ratio = plan.groups / model.teeth
-        if not model.weigh_thickness:  # a later inner blade turns its flank on by R_b
-            spacing = plan.spacing + (model.thickness - thickness) / (model.across * ratio)
+        if not model.weigh_thickness:  # a later inner blade turns its flank back by R_b
+            spacing = plan.spacing - (model.thickness - thickness) / (model.across * ratio)
             thickness = model.thickness
         blades = vector[len(NAMES) - len(BLADE) :].reshape(2, len(BLADE))
         settings = _plain(vector[COLUMNS["concave"]], ratio)

@@ -22,12 +22,15 @@ from ._hobbed_cut import stick
 from ._hobbed_model import FIXED, ROLLED_AT, ROOT_AT, Stick
 from ._hobbed_start import Start
 from ._pinion_model import FOLDING, LEFT, UM, target_places
-from ._settings_model import BLADE, INDEX, NAMES
-from ._settings_model import vector_of
+from ._settings_model import BLADE, INDEX, NAMES, vector_of
 from ._target import Target
 
 Array = np.ndarray[Any, Any]
-BLADES = {"point_radius": "blade_radius", "blade_angle": "blade_angle", "blade_curvature": "blade_curvature"}
+BLADES = {
+    "point_radius": "blade_radius",
+    "blade_angle": "blade_angle",
+    "blade_curvature": "blade_curvature",
+}
 COMMON = tuple(name for name in NAMES if name not in BLADE)
 JOINT = (*COMMON, *(f"{side}.{BLADES[name]}" for side in SIDES for name in BLADE))
 PLACE = {name: k for k, name in enumerate(JOINT)}
@@ -96,9 +99,7 @@ class JointModel:
     weigh_thickness: bool  # not where the blades' spacing makes it
     start: Memory
 
-    def look(
-        self, vector: Array, wishes: Mapping[str, Wish], memory: Memory
-    ) -> JointSeen | None:
+    def look(self, vector: Array, wishes: Mapping[str, Wish], memory: Memory) -> JointSeen | None:
         """Residuals and Jacobian at a joint vector; None where a flank or its root cannot be found."""
         rows: list[Array] = []
         lines: list[Array] = []
@@ -136,7 +137,7 @@ class JointModel:
         if self.weigh_thickness:
             rows.append(np.array([(thickness - self.thickness) / THICKNESS_SPREAD]))
             line = np.zeros((1, len(JOINT)))
-            for side, sign in (("convex", 1.0), ("concave", -1.0)):
+            for side, sign in zip(SIDES, (-1.0, 1.0), strict=True):  # concave, convex
                 line[0, COLUMNS[side]] += sign * at_mean[side][1] * self.across / THICKNESS_SPREAD
             lines.append(line)
         for name, wish in wishes.items():
@@ -160,7 +161,7 @@ def _spread(rows: Array, columns: Array) -> Array:
 def joint_vector(start: Start) -> Array:
     """The joint vector of a start."""
     bend = start.plan.curvature
-    blades = [
+    blades: list[dict[str, float]] = [
         dict(zip(BLADE, (start.cut.radii[i], start.cut.angles[i], bend), strict=True))
         for i in (0, 1)
     ]

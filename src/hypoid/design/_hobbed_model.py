@@ -28,7 +28,7 @@ from ._settings_model import BLADE, INDEX, settings_of
 
 STEPS = 40
 LIMITS = (1.0, 0.03, 0.03)  # of one step: mm, rad, rad
-ARRIVED = 1e-9  # mm and rad: of a last step, so that what is left is rounding
+ARRIVED = 1e-11  # mm and rad
 FIXED = 10  # rows before those of n . dr/dp
 Unknowns = tuple[Batch, Batch, Batch]
 
@@ -71,7 +71,7 @@ def stick_pieces(vector: Any, stick: Stick) -> tuple[EdgePiece, EdgePiece]:
 def _newton(function: Any, start: Unknowns) -> tuple[Unknowns, tuple[Batch, ...], Any]:
     """Newton in three unknowns with limited steps towards the zero of a function's first three values.
 
-    Returns where it ended, all values there, and the rows of the Jacobian. All points side by side,
+    Returns where it ended, all values there, and their rows of the Jacobian. All points side by side,
     as long as one of them still moves.
     """
 
@@ -83,25 +83,29 @@ def _newton(function: Any, start: Unknowns) -> tuple[Unknowns, tuple[Batch, ...]
             return jax.jvp(function, at, direction)
 
         values, slopes = jax.vmap(push, out_axes=(None, 0))(*ways)
-        return values, slopes[:3]  # slopes[i][k]: value i by unknown k
+        return values, slopes  # slopes[i][k]: value i by unknown k
 
     def go_on(state: Any) -> Any:
-        count, _, moved = state
-        return (count < STEPS) & jnp.any(moved > ARRIVED)
+        count, _, move, *_ = state
+        still = sum(jnp.abs(d) for d in move) > ARRIVED
+        return (count == 0) | ((count < STEPS) & jnp.any(still))
 
     def step(state: Any) -> Any:
-        count, at, _ = state
+        count, at, move, *_ = state
+        at = tuple(a - d for a, d in zip(at, move, strict=True))
         values, j = look(at)
         move = _solved(j, values[:3])
         reach = [jnp.abs(d) / limit for d, limit in zip(move, LIMITS, strict=True)]
         k = 1.0 / jnp.maximum(1.0, jnp.maximum(reach[0], jnp.maximum(reach[1], reach[2])))
         k = jnp.where(jnp.isfinite(k), k, 0.0)
-        move = tuple(k * jnp.nan_to_num(d) for d in move)
-        at = tuple(a - d for a, d in zip(at, move, strict=True))
-        return count + 1, at, sum(jnp.abs(d) for d in move)
+        return count + 1, at, tuple(k * jnp.nan_to_num(d) for d in move), values, j
 
-    _, at, _ = jax.lax.while_loop(go_on, step, (0, start, jnp.ones_like(start[0])))
-    return at, *look(at)
+    # Each turn moves first and looks then, so that what is seen last needs no compiling of its own.
+    zero = jnp.zeros_like(start[0])
+    seen = (zero,) * len(jax.eval_shape(function, *start))
+    rows = (jnp.zeros((3, *zero.shape)),) * len(seen)
+    _, at, _, values, j = jax.lax.while_loop(go_on, step, (0, start, (zero,) * 3, seen, rows))
+    return at, values, j
 
 
 def _determinant(j: Any) -> Batch:
@@ -209,20 +213,26 @@ def _around(position: Vector, normal: Vector) -> Vector:
 def _root(
     vector: Any, stick: Stick, cone: PitchCone, distance: Batch, turn: Batch, phi: Batch
 ) -> tuple[Batch, ...]:
-    """Turn, phi, height and what is left at cone distances S, then dH/dp: the path of the sharp corner."""
-    sought = _sought(vector, stick, 1, rolled=True)
+    """Turn, phi, height and what is left at cone distances S, then dH/dp: the path of the sharp corner.
 
-    def off(*at: Batch) -> tuple[Batch, ...]:
-        left, z, rho, _ = sought(*at)
+    A curve, not a surface: its height at S changes by the implicit function theorem.
+    """
+
+    def off(p: Any, s: Batch, theta: Batch, roll: Batch) -> tuple[Batch, ...]:
+        left, z, rho, _ = _sought(p, stick, 1, rolled=True)(s, theta, roll)
         reached, height = cone.cone_distance_height(z, rho)
-        return left, at[0], reached - distance, height
+        return left, s, reached - distance, height
 
-    at, (f, _, g, height), _ = _newton(off, (jnp.zeros_like(distance), turn, phi))
-    position, normal = _turned_normal(vector, stick, 1, at)
-    radial, _, axial = _around(position, normal)
-    up = radial * cone.cosine - axial * cone.sine
-    slopes = _slopes(vector, stick, 1, at, normal)
-    return at[1], at[2], height, jnp.hypot(f, g), *(slope / up for slope in slopes)
+    start = (jnp.zeros_like(distance), turn, phi)
+    at, (f, _, g, height), j = _newton(lambda *x: off(vector, *x), start)
+
+    def along(direction: Any) -> Batch:
+        moved = jax.jvp(lambda p: off(p, *at), (vector,), (direction,))[1]
+        follow = _solved(j, moved[:3])
+        return moved[3] - dot(tuple(j[3]), follow)
+
+    slopes = jax.vmap(along)(jnp.eye(vector.shape[0]))
+    return at[1], at[2], height, jnp.hypot(f, g), *slopes
 
 
 # s, turn, phi, angle, left, lever, sense, radial, around, axial (FIXED rows), then n . dr/dp

@@ -13,7 +13,6 @@ from ._milled_request import WheelMethod
 from ._spec import Assumption
 from ._target import EaseOffTarget, Target
 
-
 HobbedMethod = Literal["tilt", "modified-roll", "generated", "helical", "universal"]
 
 
@@ -65,7 +64,9 @@ class HobbedRequest:
         found = [*self.drive.problems("contact.drive"), *self.coast.problems("contact.coast")]
         methods = get_args(HobbedMethod)
         if self.pinion_method not in methods:
-            expected = f"one of {', '.join(methods)}: a face-hob head cuts both flanks in one setting-up"
+            expected = (
+                f"one of {', '.join(methods)}: a face-hob head cuts both flanks in one setting-up"
+            )
             given, example = f'"{self.pinion_method}"', 'method = "tilt"'
             found.append(Problem("pinion.method", given, expected, example))
         if self.blank.blade_groups < 1:

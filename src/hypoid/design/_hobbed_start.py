@@ -76,9 +76,8 @@ def conjugate_start(plan: HeadPlan, blank: PairBlank, wheel: HobbedWheel) -> Sta
         blank_offset=blank.offset,
         sliding_base=-z,
     )
-    twin = HobbedCut(
-        made, cut.radii[::-1], cut.angles[::-1], depth, (0.0, 0.0), 0.0
-    )
+    (outer, inner), (first, second) = cut.radii, cut.angles
+    twin = HobbedCut(made, (inner, outer), (second, first), depth, (0.0, 0.0), 0.0)
     return _cut_start(twin, plan, blank, None)
 
 

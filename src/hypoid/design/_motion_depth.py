@@ -15,6 +15,7 @@ Array = np.ndarray[Any, Any]
 DEGREE = 4  # of the surfaces through ease-off and turn
 ALONG, ACROSS = 241, 121  # places that are looked at
 LINES = 160  # of contact, over one pitch
+FAR = 1.0  # rad: no contact
 PAIRS = 2  # neighbours either way
 
 
@@ -45,22 +46,25 @@ def motion_depth(
             c[i, j] = value
         return polynomial.polygrid2d(np.linspace(-1, 1, ALONG), np.linspace(-1, 1, ACROSS), c)
 
-    angle, gap = fine(turn).ravel(), fine(lead).ravel()
-    # only where the points stand that were fitted
-    low, high = turn[there].min(), turn[there].max()
-    step = pitch / LINES
-    line = np.floor((angle - low) / step).astype(int)
-    count = int((high - low) / step)
-    if count < LINES:
+    angle, gap = fine(turn).T, fine(lead).T  # rows of v, columns of u
+    row = np.rint(np.linspace(0, rows - 1, ACROSS)).astype(int)
+    column = np.rint(np.linspace(0, columns - 1, ALONG)).astype(int)
+    gap = np.where(there.reshape(shape)[np.ix_(row, column)], gap, FAR)
+    low, high = float(turn[there].min()), float(turn[there].max())
+    at = np.arange(low, high, pitch / LINES)
+    if len(at) < LINES:
         return float("nan")
-    curve = np.full(count, np.inf)
-    inside = (line >= 0) & (line < count)
-    np.minimum.at(curve, line[inside], gap[inside])
+    curve = np.full(len(at), FAR)
+    for angles, gaps in zip(angle, gap, strict=True):  # the line of contact crosses every row once
+        if np.all(np.diff(angles) < 0.0):
+            angles, gaps = angles[::-1], gaps[::-1]
+        if np.all(np.diff(angles) > 0.0):
+            curve = np.minimum(curve, np.interp(at, angles, gaps, left=FAR, right=FAR))
     middle = int(np.argmin(curve))
     at = np.arange(middle - LINES // 2, middle + LINES // 2)
-    best = np.full(LINES, np.inf)
+    best = np.full(LINES, FAR)
     for k in range(-PAIRS, PAIRS + 1):
         shifted = at + k * LINES
-        mine = (shifted >= 0) & (shifted < count)
+        mine = (shifted >= 0) & (shifted < len(curve))
         best[mine] = np.minimum(best[mine], curve[shifted[mine]])
     return float(best.max() - best.min())

@@ -44,7 +44,9 @@ def hobbing_rules(document: Document) -> Iterator[Problem]:
         yield Problem("cutting.blade_groups", "nothing", expected, assigned("blade_groups", 13))
     method = value_at(document, ("pinion", "method"))
     if isinstance(method, str) and method not in _METHODS:
-        expected = f"one of {', '.join(_METHODS)}: a face-hob head cuts both flanks in one setting-up"
+        expected = (
+            f"one of {', '.join(_METHODS)}: a face-hob head cuts both flanks in one setting-up"
+        )
         yield Problem("pinion.method", shown(method), expected, assigned("method", "tilt"))
     yield from _slope(document)
     for member in ("pinion", "wheel"):
@@ -73,14 +75,15 @@ def _slope(document: Document) -> Iterator[Problem]:
         return
     most = 2.0 * radius * sin(1.2) * teeth / size  # cos(spiral) taken as one: a loose limit
     if 0.5 * groups > most:
-        expected = f"at most {int(2.0 * most)}: blades of this module pass {radius:g} mm no more often"
+        expected = (
+            f"at most {int(2.0 * most)}: blades of this module pass {radius:g} mm no more often"
+        )
         example = assigned("blade_groups", max(int(most), 1))
         yield Problem("cutting.blade_groups", str(groups), expected, example)
 
 
 def _exact(document: Document) -> Iterator[Problem]:
     """What the exact system asks for, and what it leaves no room for."""
-    cutting = table_at(document, "cutting")
     for path in _NOT_EXACT:
         table, key = path.split(".")
         given = table_at(document, table)
@@ -146,7 +149,9 @@ def hobbing_assumed(file: RequestFile) -> Iterator[Assumption]:
     if cutting.eccentric_angle is None:
         yield Assumption("cutting.eccentric_angle", "not given; the slope angle of the blank")
     if cutting.equal_spacing is None:
-        yield Assumption("cutting.equal_spacing", "not given; inner blades midway between outer ones")
+        yield Assumption(
+            "cutting.equal_spacing", "not given; inner blades midway between outer ones"
+        )
 
 
 def exact_of(file: RequestFile, assumed: tuple[Assumption, ...]) -> ExactFaceHobbedSpec:
@@ -165,7 +170,9 @@ def exact_of(file: RequestFile, assumed: tuple[Assumption, ...]) -> ExactFaceHob
         pinion_spiral_angle=pinion.mean_spiral_angle or 0.0,
         wheel_mean_radius=0.5 * (wheel.mean_pitch_diameter or 0.0),
         wheel_face_width=wheel.face_width,
-        mean_addendum_factor=0.5 if blank.mean_addendum_factor is None else blank.mean_addendum_factor,
+        mean_addendum_factor=0.5
+        if blank.mean_addendum_factor is None
+        else blank.mean_addendum_factor,
         depth_factor=blank.depth_factor or 2.0,
         clearance_factor=0.125 if blank.clearance_factor is None else blank.clearance_factor,
         cutter_radius=cutting.cutter_radius,
