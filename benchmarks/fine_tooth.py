@@ -37,7 +37,7 @@ from hypoid.solid._hex_mesh import ACROSS, ROWS, _one
 Array = np.ndarray[Any, Any]
 EXAMPLE = Path(__file__).parent.parent / "examples" / "gonzalez-fuentes-2022-relief.toml"
 SIDES = ("concave", "convex")
-SIZES = Elements(along=20, profile=8, fillet=2, through=3, below=1, rim=1)  # of the method's tooth
+SIZES = Elements(along=24, profile=8, fillet=4, through=4, below=2, rim=2)  # of the method's tooth
 ZONE = 3.2  # mm of S either side of the contact point where the whole tooth is fine
 CORNERS = np.array(
     [
@@ -183,7 +183,7 @@ def block(met: Meeting, along: Array, across: Array, deep: Array) -> Block:
     hat[corner] = np.arange(len(corner))
     made = np.array(faces)
     hat_a, hat_b = (v.ravel() for v in np.meshgrid(along, across, indexing="ij"))
-    inner = (i > 0) & (i < len(a) - 1) & (j > 0) & (j < len(b) - 1) & (k < len(t) - 1)
+    inner = (i > 0) & (i < len(a) - 1) & (j > 0) & (j < len(b) - 1) & (k < len(t) - 1)  # top too
     return Block(
         nodes, np.array(elements), made, hat[made[:, :4]], hat_a, hat_b, index[keep & ~inner]
     )
@@ -192,7 +192,9 @@ def block(met: Meeting, along: Array, across: Array, deep: Array) -> Block:
 def located(tooth: Tooth, points: Array) -> tuple[Array, Array]:
     """Element (m,) of the whole tooth and shape functions (m, 20) at points that may stand a little off it."""
     middles = tooth.nodes[tooth.elements[:, :8]].mean(axis=1)
-    _, near = KDTree(middles).query(points, k=24)
+    _, near = KDTree(middles).query(
+        points, k=min(200, len(middles))
+    )  # sheared elements reach far from their middles
     best = np.full(len(points), np.inf)
     element, value = np.zeros(len(points), dtype=int), np.zeros((len(points), 20))
     for k in range(near.shape[1]):
@@ -213,7 +215,7 @@ def located(tooth: Tooth, points: Array) -> tuple[Array, Array]:
         element[todo[better]], value[todo[better]] = near[todo, k][better], shape_values(at)[better]
     out = best > 1.01
     print(
-        f"{out.sum()} of {len(points)} points outside every element, by at most {best.max() - 1.0:.1e} of its half length"
+        f"{out.sum()} of {len(points)} points outside every element, by at most {best.max() - 1.0:.1e} half lengths"
     )
     return element, value
 
