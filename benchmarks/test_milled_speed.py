@@ -1,6 +1,6 @@
 """Speed of face-milled flanks and of the six-axis table; run with `make bench`.
 
-Targets: 15 million points with normals a second from cutter parameters and a million at (z, rho),
+Targets: a blank under 50 ms and a complete pair (wheel and both pinion flanks) from it under 5 s, warm; 15 million points with normals a second from cutter parameters and a million at (z, rho),
 warm, on two cores; 10,000 roll positions of six axes under 50 ms.
 """
 
@@ -13,7 +13,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from hypoid.blank import iso_blank
+from hypoid.design import MilledRequest, build, design_milled
 from hypoid.flank import Flank
+from hypoid.io import read_spec
 from hypoid.machine import axis_table
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
@@ -61,3 +64,28 @@ def test_six_axis_table(benchmark: Any) -> None:
     settings, roll = settings_of("all axes"), np.linspace(-0.5, 0.5, 10_000)
     table = benchmark(axis_table, settings, roll)
     assert np.isfinite(table.a).all()
+
+
+BLANK = Path(__file__).parents[1] / "examples" / "blanks" / "hypoid-13x42.toml"
+
+
+def request() -> MilledRequest:
+    asked = read_spec(BLANK)
+    assert isinstance(asked, MilledRequest)
+    return asked
+
+
+def test_blank(benchmark: Any) -> None:
+    blank = benchmark(iso_blank, request().blank)
+    assert blank.cones.teeth == (13, 42)
+
+
+def test_face_milled_pair_from_its_blank(benchmark: Any) -> None:
+    asked = request()
+
+    def complete() -> Any:
+        return build(design_milled(asked).spec)
+
+    complete()
+    pair = benchmark.pedantic(complete, rounds=3)
+    assert not pair.faults

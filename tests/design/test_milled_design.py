@@ -134,7 +134,7 @@ def test_the_conjugate_start_transmits_uniformly() -> None:
         ("formate", "tilt", 5.0),
         ("formate", "modified-roll", 5.0),
         ("formate", "helical", 5.0),
-        ("formate", "universal", 1.0),
+        ("formate", "universal", 3.0),  # 0.8 before the tips' arc had its room below the flank
         ("generated", "tilt", 5.0),
         ("generated", "modified-roll", 2.0),
     ],
@@ -197,17 +197,19 @@ def test_transmission_error_and_pattern_as_asked() -> None:
 @pytest.mark.parametrize("wheel", ["formate", "generated"])
 def test_one_setting_cuts_both_flanks_with_the_backlash_that_is_asked(wheel: str) -> None:
     """Duplex-helical: one head and one setting; backlash from the contact of both flanks; no stock division."""
-    duplex = replace(BLANK, taper="duplex")
     request = replace(
-        REQUEST, blank=duplex, wheel_method=wheel, pinion_method="duplex-helical", tolerance=0.02
-    )  # pyright: ignore[reportArgumentType]
+        REQUEST,
+        blank=replace(BLANK, taper="duplex"),
+        wheel_method=wheel,  # pyright: ignore[reportArgumentType]
+        pinion_method="duplex-helical",
+    )
     made = design_milled(request)
+    assert max(fit.largest for fit in made.fits.values()) < 0.012
     pair = build(made.spec)
     pinion = pair.pinion
     assert pinion.concave.settings == pinion.convex.settings
     assert pinion.heads["concave"] is pinion.heads["convex"]
     assert pinion.stock_turn == 0.0
-    assert not [fault for fault in made.faults if "tolerance" in fault]
     drive, coast = (unloaded_contact(pair, d) for d in ("drive", "coast"))  # pyright: ignore
     assert backlash(drive, coast).mean_normal == pytest.approx(0.15, abs=0.005)
     assert not drive.edge_contact

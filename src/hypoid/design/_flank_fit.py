@@ -111,9 +111,8 @@ def _held(joint: JointFit) -> tuple[str, ...]:
     for entry, sign in zip(joint.entries, joint.fit.held, strict=True):
         if sign:
             bound = entry.high if sign > 0.0 else entry.low
-            words.append(
-                f"{entry.name} stands at its {'upper' if sign > 0.0 else 'lower'} bound, {bound:.6g}"
-            )
+            end = "upper" if sign > 0.0 else "lower"
+            words.append(f"{entry.name} stands at its {end} bound, {_worded(entry.name, bound)}")
     return tuple(words)
 
 

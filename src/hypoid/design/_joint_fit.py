@@ -72,15 +72,25 @@ class Tie:
     jacobians: tuple[Array, ...]
 
 
-def shared(name: str, flanks: int, limit: float, **bounds: float) -> Entry:
+def shared(
+    name: str, flanks: int, limit: float, low: float = -np.inf, high: float = np.inf
+) -> Entry:
     """A setting that all flanks have in common."""
-    return Entry(name, ({name: 1.0},) * flanks, limit, **bounds)
+    return Entry(name, ({name: 1.0},) * flanks, limit, low, high)
 
 
-def own(name: str, key: str, flank: int, flanks: int, limit: float, **bounds: float) -> Entry:
+def own(
+    name: str,
+    key: str,
+    flank: int,
+    flanks: int,
+    limit: float,
+    low: float = -np.inf,
+    high: float = np.inf,
+) -> Entry:
     """An entry ``key`` of one flank alone, called ``name``."""
     moves = tuple({key: 1.0} if n == flank else {} for n in range(flanks))
-    return Entry(name, moves, limit, **bounds)
+    return Entry(name, moves, limit, low, high)
 
 
 @dataclass(frozen=True)

@@ -27,6 +27,7 @@ EDGE = 0.3  # of the mean normal module: the edge radius that practice does not 
 ROOM = 0.7  # of the clearance, that an edge arc may take
 LEAST_EDGE = 0.15  # of the mean normal module: rather than a sharper edge a form cutter cuts deeper
 LEAST_POINT = 0.15  # of the mean normal module: a blade's point must stand
+LAND = 0.98  # of it, that both arcs take
 CORRECTIONS = 2
 SPARE = 1.6  # times both members' addenda: a blade surely longer than the tooth is deep
 
@@ -79,8 +80,7 @@ def milled_wheel(request: MilledRequest, blank: PairBlank) -> MilledWheel:
     room = ROOM * (blank.clearance or 0.0)
     deeper = min(max(lift + LEAST_EDGE * blank.mean_normal_module * arc - room, 0.0), lift)
     edge = max(min(edge, (room - lift + deeper) / arc), 0.0)
-    if request.wheel_edge_radius is not None:
-        edge = request.wheel_edge_radius
+    asked_edge = request.wheel_edge_radius
     height = SPARE * (blank.pinion.outer_addendum + own.outer_addendum)
 
     def cut_for(asked: tuple[float, float], spiral: float) -> WheelCut:
@@ -105,6 +105,7 @@ def milled_wheel(request: MilledRequest, blank: PairBlank) -> MilledWheel:
     asked, spiral = by_side, own.mean_spiral_angle
     cut = cut_for(asked, spiral)
     _check_point(blank, cut)
+    edge = _on_land(edge, cut) if asked_edge is None else asked_edge
     settings, flanks = _flanks(blank, cut, height, edge, generated)
     for _ in range(
         CORRECTIONS if generated else 0
@@ -117,6 +118,7 @@ def milled_wheel(request: MilledRequest, blank: PairBlank) -> MilledWheel:
         spiral += own.mean_spiral_angle - 0.5 * sum(at.spiral for at in seen)
         cut = cut_for(asked, spiral)
         _check_point(blank, cut)
+        edge = _on_land(edge, cut) if asked_edge is None else asked_edge
         settings, flanks = _flanks(blank, cut, height, edge, generated)
     concave, convex = flanks
     if not (concave.generated and convex.generated):
@@ -141,6 +143,12 @@ def _check_point(blank: PairBlank, cut: WheelCut) -> None:
     )
     given = f"{blank.depths.whole_depth if blank.depths else 0.0:.4g} mm"
     raise DesignError([Problem("blank.depth_factor", given, expected, "depth_factor = 1.8")])
+
+
+def _on_land(edge: float, cut: WheelCut) -> float:
+    """An edge radius, mm, held to what half the point width has room for on either blade."""
+    rooms = (math.cos(a) / (1.0 - math.sin(a)) for a in cut.blade_angles)
+    return min(edge, LAND * 0.5 * cut.point_width * min(rooms))
 
 
 def _flanks(

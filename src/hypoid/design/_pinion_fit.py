@@ -69,15 +69,16 @@ def _best(task: PinionTask, starts: Sequence[Callable[[], Stage | None]]) -> Sta
 
 def _moved(task: PinionTask, stage: Stage) -> Stage:
     """The stage with the asked motion met: the target's amplitude corrected by what the fit's ease-off makes."""
-    asked = {
+    asked: dict[Side, MotionTarget] = {
         m.side: target
         for m in stage.models
         if isinstance(target := task.target(m.side), MotionTarget)
     }
     aims = dict(asked)
+    sides: list[Side] = list(asked)
     best, least = stage, math.inf
     for _ in range(CORRECTIONS if asked else 0):
-        seen = {side: _motion(task, stage, side) for side in asked}
+        seen = {side: _motion(task, stage, side) for side in sides}
         if any(motion is None for motion in seen.values()):
             break
         off = max(m.off(asked[s].transmission_error) for s, m in seen.items() if m is not None)

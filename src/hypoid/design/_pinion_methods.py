@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from hypoid.blank import PairBlank
 from hypoid.machine import MACHINES
 
-from ._joint_fit import Entry, Wish
+from ._joint_fit import Entry, Wish, own, shared
 from ._milled_request import PinionLimits
 from ._settings_model import ANGLES, INDEX, MOTIONS, ROLL
 
@@ -163,10 +163,9 @@ def entries_of(
             found.append(Entry("point_width", moves, limit, low, high))
         elif joint and name in APART:
             for n, side in enumerate(SIDES):
-                moves = tuple({name: 1.0} if n == k else {} for k in range(2))
-                found.append(Entry(f"{side}.{name}", moves, limit, low, high))
+                found.append(own(f"{side}.{name}", name, n, count, limit, low, high))
         else:
-            found.append(Entry(name, ({name: 1.0},) * count, limit, low, high))
+            found.append(shared(name, count, limit, low, high))
     return tuple(found)
 
 
