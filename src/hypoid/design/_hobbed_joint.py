@@ -41,6 +41,8 @@ COLUMNS = {
 }
 assert NAMES[-3:] == BLADE
 assert [INDEX[name] for name in COMMON] == list(range(len(COMMON)))
+ROOT_LEFT = 1e-6  # mm that Newton may leave at a root, where its path may run along the edge's
+SAME = 1e-6  # rad of the cutter's turn
 ROOT_PLACES = 3  # toe, mean point, heel
 THICKNESS_SPREAD = 1e-3  # mm: the slot's width comes before the last um of the ease-off
 ROOT_SPREAD = 0.01  # mm, at the mean point
@@ -114,7 +116,7 @@ class JointModel:
             if not np.all(got[4] < LEFT):
                 return None
             root = ROOT_AT(own, model.stick, self.cone, self.root_distance, root_turn, root_phi)
-            if not np.all(root[3] < LEFT):
+            if not np.all(root[3] < ROOT_LEFT):
                 return None
             kept[side] = got[0], got[1], got[2], root[0], root[1]
             angle, turned = got[3], got[FIXED:] / got[5]
@@ -196,13 +198,21 @@ def joint_model(
         where = np.append(c.distance, own.mean_cone_distance), np.append(c.height, 0.0)
         begin = _on_flank(flank, *where)
         z, rho = np.append(c.z, mean[0]), np.append(c.rho, mean[1])
-        got = ROLLED_AT(vector[COLUMNS[side]], held, z, rho, *begin)
+        entries = vector[COLUMNS[side]]
+        got = ROLLED_AT(entries, held, z, rho, *begin)
+        if any(start.cut.turns):  # of several sheets through the mean point the one that was cut
+            turn = start.cut.turns[SIDES.index(side)]
+            own_mean = ROLLED_AT(entries, held, mean[:1], mean[1:], [0.0], [turn], [0.0])
+            if own_mean[4, 0] < LEFT and abs(own_mean[1, 0] - got[1, -1]) > SAME:
+                lead = where[1] / np.cos(start.cut.angles[SIDES.index(side)])
+                begin = (lead, *(np.full(len(lead), own_mean[k, 0]) for k in (1, 2)))
+                got = ROLLED_AT(entries, held, z, rho, *begin)
         sound = (got[4] < LEFT) & (got[6] / got[6][-1] > FOLDING)
         if not sound[-1]:
             return None
         turns, rolls = (np.full(ROOT_PLACES, got[k][-1]) for k in (1, 2))
-        cut = ROOT_AT(vector[COLUMNS[side]], held, cone, distance, turns, rolls)
-        if not np.all(cut[3] < LEFT):
+        cut = ROOT_AT(entries, held, cone, distance, turns, rolls)
+        if not np.all(cut[3] < ROOT_LEFT):
             return None
         there = c.there & sound[:-1]
         wanted = targets[side].at(target_places(c, blank))
