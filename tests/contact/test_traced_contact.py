@@ -208,7 +208,8 @@ def test_values_are_those_of_the_contact(name: str, direction: str) -> None:
         assert np.abs(error - lead(one, one.contact)).max() < 1e-13
         assert np.abs(path - np.stack(one.contact.path, axis=1)).max() < 1e-8
     else:
-        assert not error.size and not path.size
+        assert not error.size
+        assert not path.size
     i, j = np.linspace(0, 10, 5).round().astype(int), np.linspace(0, 20, 9).round().astype(int)
     seen = ease_off(one.contact).value[i][:, j]
     there = np.isfinite(gaps)
