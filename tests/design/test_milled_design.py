@@ -204,7 +204,7 @@ def test_one_setting_cuts_both_flanks_with_the_backlash_that_is_asked(wheel: str
         pinion_method="duplex-helical",
     )
     made = design_milled(request)
-    assert max(fit.largest for fit in made.fits.values()) < 0.012
+    assert max(fit.largest for fit in made.fits.values()) < 0.015
     pair = build(made.spec)
     pinion = pair.pinion
     assert pinion.concave.settings == pinion.convex.settings
@@ -217,14 +217,16 @@ def test_one_setting_cuts_both_flanks_with_the_backlash_that_is_asked(wheel: str
 
 
 def test_a_fixed_setting_has_the_blanks_root_cone() -> None:
-    """The tips run in the root plane whatever the fit moves: the root is the blank's to 5 um where it is cut."""
+    """The tips run in the root plane whatever the fit moves: the root is the blank's."""
     made, _ = designed("generated", "fixed-setting")
     for fit in made.fits.values():
         assert fit.settings.tilt_angle == 0.0
         assert fit.settings.machine_root_angle == pytest.approx(
             made.blank.pinion.root_angle, abs=1e-12
         )
-        assert np.abs(fit.root_error).max() < 0.005
+        assert (
+            np.abs(fit.root_error).max() < 5e-4
+        )  # as far as the blank's root apex and its dedendum agree
         assert 1e3 * fit.largest < 2.0
 
 

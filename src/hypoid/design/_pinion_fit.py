@@ -20,7 +20,7 @@ from ._motion import Motion, motion_of
 from ._pinion_methods import APART, BASE, HEAD
 from ._pinion_model import CORNER_SPREAD, ROOT_SPREAD, pinion_model, target_places
 from ._pinion_start import conjugate_places, conjugate_start, plain_places, plain_start
-from ._pinion_task import PinionTask, Stage, goals, led, run
+from ._pinion_task import PinionTask, Stage, goals, in_root_plane, led, run
 from ._settings_model import INDEX
 from ._target import MotionTarget
 
@@ -131,7 +131,7 @@ def _from_plain(task: PinionTask, sides: Sequence[Side]) -> Stage | None:
     to = goals(task, stage)
     off = {n: v for n, v in to.items() if any(abs(vec[INDEX[n]] - v) > 1e-9 for vec in vectors)}
     found = led(task, stage, off)
-    found = None if found is None else run(task, found, first, {})
+    found = None if found is None else run(task, in_root_plane(task, found.put(to)), first, {})
     return None if found is None else _finished(task, found, first)
 
 
@@ -153,7 +153,7 @@ def _from_conjugate(task: PinionTask, side: Side) -> Stage | None:
     to = goals(task, stage)
     if to:
         stage, free = led(task, stage, to), ()
-    return None if stage is None else _finished(task, stage, free)
+    return None if stage is None else _finished(task, in_root_plane(task, stage), free)
 
 
 def _from_between(task: PinionTask) -> Stage | None:

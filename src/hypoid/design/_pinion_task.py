@@ -226,3 +226,15 @@ def led(task: PinionTask, stage: Stage, to: Mapping[str, float]) -> Stage | None
     names = dict.fromkeys((*task.free, *wishes))
     found = run(task, stage, tuple(names), wishes, bounded=False, steps=80)
     return None if found is None else found.put(to)
+
+
+def in_root_plane(task: PinionTask, stage: Stage) -> Stage:
+    """The stage with its tips in the blank's root plane, where the method holds them there."""
+    if not task.method.root_plane:
+        return stage
+    own, vectors = task.blank.pinion, tuple(v.copy() for v in stage.vectors)
+    for vector in vectors:
+        back = own.root_apex_beyond_crossing_point - vector[INDEX["machine_center_to_back"]]
+        vector[INDEX["machine_root_angle"]] = own.root_angle
+        vector[INDEX["sliding_base"]] = math.sin(own.root_angle) * back
+    return replace(stage, vectors=vectors)
