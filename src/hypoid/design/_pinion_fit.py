@@ -78,7 +78,7 @@ def _moved(task: PinionTask, stage: Stage) -> Stage:
     sides: list[Side] = list(asked)
     best, least = stage, math.inf
     for _ in range(CORRECTIONS if asked else 0):
-        seen = {side: _motion(task, stage, side) for side in sides}
+        seen: dict[Side, Motion | None] = {side: _motion(task, stage, side) for side in sides}
         if any(motion is None for motion in seen.values()):
             break
         off = max(m.off(asked[s].transmission_error) for s, m in seen.items() if m is not None)
