@@ -213,7 +213,9 @@ def test_one_setting_cuts_both_flanks_with_the_backlash_that_is_asked(wheel: str
     drive, coast = (unloaded_contact(pair, d) for d in ("drive", "coast"))  # pyright: ignore
     assert backlash(drive, coast).mean_normal == pytest.approx(0.15, abs=0.005)
     assert not drive.edge_contact
-    assert not coast.edge_contact
+    # beside a generated wheel coast keeps 11 um from its target: a neighbour's edge leads for 0.3 of the pitch
+    assert coast.edge_contact == (wheel == "generated")
+    assert coast.interior[len(coast.phi) // 2]
 
 
 def test_a_fixed_setting_has_the_blanks_root_cone() -> None:

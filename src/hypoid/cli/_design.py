@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
 from math import degrees, isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
         SideFit,
         Spec,
     )
+    from hypoid.flank import Side
 
 
 def design(
@@ -54,10 +56,11 @@ def design(
     pair = build(made.design.spec)
     write_text(output, made.text)
     if report is not None:
-        from hypoid.report import terminal_progress, write_report
+        from hypoid.report import FittedPinion, terminal_progress, write_report
 
+        fitted = FittedPinion(made.sides, made.undetermined) if made.sides else None
         with terminal_progress() as progress:
-            write_report(pair, report, progress)
+            write_report(pair, report, progress, fitted=fitted)
         say(f"The report is {report}.")
     faults = list(dict.fromkeys([*made.design.faults, *pair.faults]))
     if json:
@@ -86,6 +89,8 @@ class _Made:
     text: str
     fits: dict[str, dict[str, Any]]
     tables: dict[str, Any]
+    sides: Mapping[Side, FlankFit | SideFit] = field(default_factory=dict)
+    undetermined: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
 
 def _made(spec: Spec) -> _Made:
@@ -106,13 +111,15 @@ def _made(spec: Spec) -> _Made:
         fits = {f"pinion {side}": _fit(fit) for side, fit in milled.fits.items()}
         maps = {side: _map(fit) for side, fit in milled.fits.items()}
         tables = {"slots": slot_table(milled), "residual_maps": maps}
-        return _Made(milled, design_text(milled), fits, tables)
+        words = {f"pinion {side}": fit.undetermined for side, fit in milled.fits.items()}
+        return _Made(milled, design_text(milled), fits, tables, milled.fits, words)
     if isinstance(spec, HobbedRequest):
         say("Blank, wheel and pinion: fitting one setting-up to both targets.")
         hobbed = design_hobbed(spec)
         maps = {side: _map(fit) for side, fit in hobbed.fit.sides.items()}
         tables = {"slots": slot_table(hobbed), "residual_maps": maps}
-        return _Made(hobbed, hobbed_text(hobbed), _hobbed_fits(hobbed), tables)
+        sides, words = hobbed.fit.sides, {"both flanks": hobbed.fit.undetermined}
+        return _Made(hobbed, hobbed_text(hobbed), _hobbed_fits(hobbed), tables, sides, words)
     if isinstance(spec, ExactFaceHobbedSpec):
         exact = design_exact(spec)
         return _Made(exact, exact_text(exact), {}, {})

@@ -36,7 +36,6 @@ from ._envelope import Surface, axial_radial_angle, newton_pair
 
 COLUMNS, ROWS = 14, 12  # polynomial orders along S and across
 ALONG_EDGE = 20  # nodes along an edge arc, to find its lowest point
-LIFTS = (0.1, 0.2, 0.35, 0.5)  # shares of a flank's edge that are tried to be left out
 SHORT = 0.05  # mm by which an edge may miss that reserve
 RESERVE = 0.5  # mm that a chart reaches beyond the tooth's tip, where the edge does
 
@@ -90,7 +89,6 @@ class Chart:
     rooted: Scalar  # 1 where y counts the root of the height (fillet), else 0
     sense: Scalar  # sign of the derivatives' determinant of (S, H) by (s, theta), mid-face
     error: Scalar  # greatest misfit of the angle seen, rad; infinite where the piece folds
-    lifted: Scalar = 0.0  # share of the edge's useful height left out below, where it folds
 
     def bounds(self, distance: Batch) -> tuple[Batch, Batch]:
         """H_low and H_high (mm) at cone distance S."""
@@ -190,32 +188,7 @@ def chart(
     rooted: bool,
     tip: Border | None = None,
 ) -> Chart:
-    """Chart of a piece between toe and heel (S, mm), not far beyond a tip; nodes that fail keep their start.
-
-    Where a flank's lowest edge folds (undercut) the chart begins above, and says so.
-    """
-    made = _chart(surface, piece, cone, toe, heel, theta_start, rooted, tip, 0.0)
-    if rooted or np.isfinite(made.error):
-        return made
-    for lifted in LIFTS:
-        above = _chart(surface, piece, cone, toe, heel, theta_start, rooted, tip, lifted)
-        if np.isfinite(above.error):
-            return replace(above, lifted=lifted)
-    return made
-
-
-def _chart(
-    surface: Surface,
-    piece: EdgePiece,
-    cone: PitchCone,
-    toe: float,
-    heel: float,
-    theta_start: float,
-    rooted: bool,
-    tip: Border | None,
-    lifted: float,
-) -> Chart:
-    """The chart that leaves out a share of the edge's useful height at its low end."""
+    """Chart of a piece between toe and heel (S, mm), not far beyond a tip; nodes that fail keep their start."""
     x, y = nodes(COLUMNS), nodes(ROWS)
     distance = 0.5 * (heel + toe) + 0.5 * (heel - toe) * x
     low, high = np.full(COLUMNS, float(piece.low)), float(piece.high)
@@ -223,11 +196,6 @@ def _chart(
         low = _lowest(surface, piece, cone, distance, theta_start)
     theta_low, height_low = edge_line(surface, piece, cone, distance, low, theta_start)
     theta_high, height_high = edge_line(surface, piece, cone, distance, high, theta_start)
-    if lifted:
-        top = height_high if tip is None else np.minimum(height_high, tip.at(distance) + RESERVE)
-        share = lifted * float(np.median((top - height_low) / (height_high - height_low)))
-        low = low + share * (high - low)
-        theta_low, height_low = edge_line(surface, piece, cone, distance, low, theta_start)
     reach = 1.0  # share of the edge that is charted
     if tip is not None and np.all(height_high > tip.at(distance) + RESERVE - SHORT):
         wanted = tip.at(distance) + RESERVE

@@ -62,10 +62,9 @@ def cut_flank(
     return flank
 
 
-def _sounder(flank: Flank) -> tuple[bool, float, int]:
-    """Ways compared: a flank chart at all, how much of the edge it has, and how many pieces are whole."""
-    chart = flank.charts["flank"]
-    return bool(np.isfinite(chart.error)), -float(chart.lifted), -len(flank.cut_away)
+def _sounder(flank: Flank) -> tuple[bool, int]:
+    """Ways compared: a flank chart at all, and how many pieces are whole."""
+    return bool(np.isfinite(flank.charts["flank"].error)), -len(flank.cut_away)
 
 
 def _rooted(asked: Flank, way: Way, theta_start: float | None) -> Flank:

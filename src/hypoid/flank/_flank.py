@@ -131,8 +131,7 @@ class Flank:
     @cached_property
     def cut_away(self) -> tuple[str, ...]:
         """Pieces that fold, or that another piece cuts away somewhere between toe and heel."""
-        charts = self.charts.items()
-        return tuple(n for n, chart in charts if chart.lifted or not np.isfinite(chart.error))
+        return tuple(n for n, chart in self.charts.items() if not np.isfinite(chart.error))
 
     @property
     def generated(self) -> bool:

@@ -10,6 +10,8 @@ from ._progress import Progress as Progress
 from ._progress import terminal_progress as terminal_progress
 
 if TYPE_CHECKING:
+    from ._figures_fit import FittedPinion as FittedPinion
+    from ._figures_fit import fit_figure as fit_figure
     from ._figures_inspect import correction_image as correction_image
     from ._figures_inspect import topography_image as topography_image
     from ._figures_load import loaded_contact_figure as loaded_contact_figure
@@ -27,6 +29,7 @@ _LAZY = {
     **dict.fromkeys(("ReportSummary", "report_html", "write_report"), "_report"),
     **dict.fromkeys(("look", "to_png", "to_svg"), "_style"),
     **dict.fromkeys(("loaded_contact_figure", "root_stress_figure"), "_figures_load"),
+    **dict.fromkeys(("FittedPinion", "fit_figure"), "_figures_fit"),
     "Loaded": "_loaded",
     "tooth_figure": "_figures_tooth",
     "correction_image": "_figures_inspect",

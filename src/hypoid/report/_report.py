@@ -23,6 +23,7 @@ from ._figures_contact import (
     pattern_figure,
 )
 from ._figures_cutter import cutter_figure
+from ._figures_fit import FittedPinion, fit_section
 from ._figures_mill import blades_figure
 from ._figures_tooth import tooth_figure, tooth_notes, tooth_rows
 from ._loaded import Loaded, loaded_section
@@ -53,10 +54,14 @@ class ReportSummary:
 
 
 def write_report(
-    pair: GearPair, path: str | Path, progress: Progress = silent, loaded: Loaded | None = None
+    pair: GearPair,
+    path: str | Path,
+    progress: Progress = silent,
+    loaded: Loaded | None = None,
+    fitted: FittedPinion | None = None,
 ) -> ReportSummary:
-    """Write the report of a pair, `loaded` or not, to one HTML file: whole, or not at all."""
-    text, summary = report_html(pair, progress, loaded)
+    """Write the report of a pair, `loaded` or `fitted` or neither, to one HTML file: whole, or not at all."""
+    text, summary = report_html(pair, progress, loaded, fitted)
     path = Path(path)
     handle, name = tempfile.mkstemp(dir=path.parent, prefix=path.name, suffix=".part")
     try:
@@ -71,7 +76,10 @@ def write_report(
 
 
 def report_html(
-    pair: GearPair, progress: Progress = silent, loaded: Loaded | None = None
+    pair: GearPair,
+    progress: Progress = silent,
+    loaded: Loaded | None = None,
+    fitted: FittedPinion | None = None,
 ) -> tuple[str, ReportSummary]:
     """The report as HTML text, and what it found wrong."""
     done = 0
@@ -85,6 +93,8 @@ def report_html(
     step("figures")
     with look():
         sections = _sections(found, loaded)
+        if fitted is not None:
+            sections.append(("Fit to the target", fit_section(pair, fitted)))
         step("3D view")
         sections.append(("In mesh", _in_mesh(found)))
     progress("done", STEPS, STEPS)
