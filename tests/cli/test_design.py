@@ -118,6 +118,6 @@ def test_report_shows_what_the_fit_leaves(hypoid: Any, tmp_path: Path) -> None:
     assert status in (0, 1)
     assert f"The report is {report}" in err
     text = report.read_text(encoding="utf-8")
-    section = text.split("Fit to the target")[-1]
-    assert "determined" in section
+    section = text.split("Fit to the target</h2>")[-1].split("</section>")[0]
+    assert "The target determines every free setting." in section
     assert "<svg" in section
