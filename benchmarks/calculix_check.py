@@ -3,21 +3,26 @@
     python benchmarks/calculix_check.py --folder OUT --torque "30 N m" --elements 12,6,2,4,2,1 --teeth 5
 
 OUT keeps CalculiX's files: where it holds a finished run of the same input, that is read instead of another run.
+`--keep tests/load/calculix_contact.json` writes the answer that tests compare with where CalculiX is not installed.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import subprocess
 import time
+from dataclasses import asdict, fields
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 import hypoid
 from hypoid.io import contact_text, parse, read_contact
 from hypoid.load import (
+    ContactAnswer,
     ContactModel,
     Elements,
     LoadedPosition,
@@ -64,6 +69,19 @@ def ours(pair: GearPair, model: ContactModel) -> tuple[LoadedPosition, float, fl
     return found.cases[0].positions[2], made, 0.5 * (time.process_time() - start)
 
 
+def kept(model: ContactModel, answer: ContactAnswer) -> dict[str, Any]:
+    """An answer as JSON, with what tells its model from others."""
+
+    def plain(value: Any) -> Any:
+        return value.tolist() if isinstance(value, np.ndarray) else value
+
+    told = subprocess.run(["ccx", "-v"], capture_output=True, text=True, check=False).stdout
+    own = {f.name: plain(getattr(answer, f.name)) for f in fields(answer) if f.name != "pairs"}
+    pairs = [{f.name: plain(getattr(p, f.name)) for f in fields(p)} for p in answer.pairs]
+    sizes = [asdict(e) for e in model.elements]
+    return {"by": " ".join(told.split()), "elements": sizes, **own, "pairs": pairs}
+
+
 def main() -> None:
     """Print the tables of one case."""
     given = argparse.ArgumentParser(description=__doc__)
@@ -71,6 +89,7 @@ def main() -> None:
     given.add_argument("--torque", default="30 N m")
     given.add_argument("--elements", default="8,5,2,2,1,1", help="as the fields of Elements")
     given.add_argument("--teeth", type=int, default=5)
+    given.add_argument("--keep", type=Path, help="a JSON file for the answer")
     asked = given.parse_args()
     pair = hypoid.read(EXAMPLE)
     sizes = Elements(*map(int, asked.elements.split(",")))
@@ -78,6 +97,8 @@ def main() -> None:
     model = contact_model(pair, "drive", torque, teeth=asked.teeth, elements=sizes)
     spent = solved(model, asked.folder)
     theirs = read_contact(asked.folder / "contact.dat", model)
+    if asked.keep is not None:
+        asked.keep.write_text(json.dumps(kept(model, theirs), indent=1) + "\n")
     position, made, one = ours(pair, model)
     nodes = len(model.pinion.nodes), len(model.wheel.nodes)
     print(

@@ -106,8 +106,8 @@ def test_the_start_is_the_form_cut_wheels_exact_conjugate(
 def test_the_conjugate_start_transmits_uniformly() -> None:
     """Through the ordinary way, build and contact: no transmission error on the drive side."""
     made, _ = designed("formate", "tilt")
+    from hypoid.design._designed_sheet import sheet_dials
     from hypoid.design._flank_fit import plain_settings
-    from hypoid.design._milled_design import _dials
     from hypoid.design._settings_model import INDEX
 
     start = conjugate_start(made.wheel, made.blank, "concave")
@@ -118,7 +118,7 @@ def test_the_conjugate_start_transmits_uniformly() -> None:
         point_radius=float(start[INDEX["point_radius"]]),
         angle=float(start[INDEX["blade_angle"]]),
     )
-    exact = replace(flank, dials=_dials(plain_settings(start), apex), blade=blade)
+    exact = replace(flank, dials=sheet_dials(plain_settings(start), apex), blade=blade)
     spec = replace(made.spec, pinion=replace(made.spec.pinion, concave=exact))
     contact = unloaded_contact(build(spec), "drive")
     middle = len(contact.phi) // 2

@@ -16,9 +16,9 @@ from hypoid.geometry import DesignError, Problem
 from hypoid.machine import MachineSettings
 
 from ._blank import spec_blank
+from ._designed_sheet import sheet_dials
 from ._exact_face_hobbed import exact_head, exact_settings
 from ._member_blanks import given_blank
-from ._milled_design import _dials
 from ._sheet_spec import FlankSpec, MemberSpec, StickBladeSpec, SummarySheetSpec
 from ._spec import ExactFaceHobbedSpec
 
@@ -79,7 +79,7 @@ def _member(
     head: FaceHobHead = exact_head(request, blank, own)
     height = head.outer.reference_height
     settings = replace(exact, sliding_base=exact.sliding_base - height)
-    dials = _dials(settings, own.pitch_apex_beyond_crossing_point)
+    dials = sheet_dials(settings, own.pitch_apex_beyond_crossing_point)
     blade = StickBladeSpec(
         radius=head.radius,
         angle=head.outer.pressure_angle,

@@ -9,7 +9,7 @@ there, and the rest are solved for again, until none wants out (an active set). 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,6 +17,8 @@ import numpy as np
 
 Array = np.ndarray[Any, Any]
 CUT = 1e-5  # of the greatest singular value, below which a direction counts as undetermined
+SPOKEN, LEAST_SPOKEN = 4, 0.1  # entries of a direction that are named, and their least share
+NOTHING = 1e-12  # square of a scaled column's rest
 SHRINK, LEAST_REACH = 0.3, 1e-5  # of the trust region, where no step gains
 GROWTH = 2.5  # of the damping, from try to try
 
@@ -49,8 +51,43 @@ class Fit:
         """Sum of squares."""
         return float(self.look.residual @ self.look.residual)
 
+    def undetermined(self, names: Sequence[str]) -> tuple[str, ...]:
+        """Directions of the entries so named that nothing determines, and which were left alone, in words."""
+        return tuple(
+            ", ".join(
+                f"{names[k]} {row[k]:+.2f}"
+                for k in np.argsort(-np.abs(row))[:SPOKEN]
+                if abs(row[k]) > LEAST_SPOKEN
+            )
+            for value, row in zip(self.singular_values, self.directions, strict=True)
+            if value <= CUT * self.singular_values[0]
+        )
+
 
 Model = Callable[[Array, Any], Look | None]
+
+
+def promised(jacobian: Array, residual: Array, moving: Array, rows: Any) -> dict[int, float]:
+    """What one more column would leave, by one linear step: root mean square of ``rows`` by column.
+
+    ``jacobian`` is scaled by the limits, ``moving`` (n,) bool says which columns move already. Columns that
+    do nothing which those do not are left out.
+    """
+    basis, values, _ = np.linalg.svd(jacobian[:, moving], full_matrices=False)
+    basis = basis[:, values > CUT * values[0]]
+
+    def off(v: Array) -> Array:
+        return v - basis @ (basis.T @ v)
+
+    left = off(residual)
+    found: dict[int, float] = {}
+    for k in np.flatnonzero(~moving):
+        column = off(jacobian[:, k])
+        size = float(column @ column)
+        if size >= NOTHING:
+            rest = (left - column * (column @ left) / size)[rows]
+            found[int(k)] = float(np.sqrt(np.mean(rest**2)))
+    return found
 
 
 def gauss_newton(

@@ -11,7 +11,7 @@ import numpy as np
 from hypoid.flank import Side
 from hypoid.machine import MachineSettings
 
-from ._fit import CUT, Fit
+from ._fit import Fit, promised
 from ._joint_fit import JointFit, Unknowns
 from ._pinion_methods import HEAD
 from ._pinion_model import ROOT_PLACES, UM, PinionModel
@@ -60,16 +60,7 @@ class FlankFit:
     @property
     def undetermined(self) -> tuple[str, ...]:
         """Directions that the target does not determine, and which were left alone, in words."""
-        values, rows = self.fit.singular_values, self.fit.directions
-        return tuple(
-            ", ".join(
-                f"{self.free[k]} {row[k]:+.2f}"
-                for k in np.argsort(-np.abs(row))[:4]
-                if abs(row[k]) > 0.1
-            )
-            for value, row in zip(values, rows, strict=True)
-            if value <= CUT * values[0]
-        )
+        return self.fit.undetermined(self.free)
 
 
 def flank_fits(task: PinionTask, stage: Stage) -> dict[Side, FlankFit]:
@@ -147,22 +138,8 @@ def _helpful(
     )
     moving = np.zeros(len(limits), bool)
     moving[: len(joint.entries)] = joint.fit.held == 0.0
-    basis, values, _ = np.linalg.svd(jacobian[:, moving], full_matrices=False)
-    basis = basis[:, values > CUT * values[0]]
-
-    def off(v: Array) -> Array:
-        return v - basis @ (basis.T @ v)
-
-    left = off(residual)
-    found: dict[str, float] = {}
-    for k in np.flatnonzero(~moving):
-        column = off(jacobian[:, k])
-        size = float(column @ column)
-        if size < 1e-12:
-            continue
-        rest = (left - column * (column @ left) / size)[first : first + model.count]
-        name = every.entries[k].name
-        found[name] = float(np.sqrt(np.mean(rest**2)) * UM)
+    rest = promised(jacobian, residual, moving, slice(first, first + model.count))
+    found = {every.entries[k].name: UM * rms for k, rms in rest.items()}
     return tuple(sorted(found.items(), key=lambda entry: entry[1])[:MOST_ADVICE])
 
 

@@ -6,22 +6,16 @@ from dataclasses import dataclass
 from math import sin
 from typing import Any
 
-from hypoid.blank import (
-    PairBlank,
-    UndercutLimit,
-    crown_gear_tooth,
-    iso_blank,
-    tooth_factors,
-    undercut_limits,
-)
+from hypoid.blank import PairBlank, UndercutLimit, iso_blank
 from hypoid.flank import SIDES, Side
 from hypoid.geometry import DesignError, Problem
 
+from ._design_faults import blank_faults, likely_undercut, short_of_target
+from ._designed_sheet import SHEET_METHODS, sheet_dials
 from ._hobbed_fit import HobbedFit, fit_hobbed
 from ._hobbed_request import HobbedRequest
 from ._hobbed_wheel import HobbedWheel, hobbed_wheel
 from ._member_blanks import given_blank
-from ._milled_design import SHEET_METHODS, _dials
 from ._milled_wheel import EDGE, ROOM
 from ._sheet_spec import FlankSpec, MemberSpec, StickBladeSpec, SummarySheetSpec
 from ._target import Target
@@ -43,14 +37,7 @@ class HobbedDesign:
     @property
     def faults(self) -> tuple[str, ...]:
         """What keeps the design from what was asked, in words."""
-        found = [fault.value for fault in self.blank.faults]
-        for limit in self.undercut:
-            if not limit.kept:
-                bound = "below its least" if limit.member == "pinion" else "above its greatest"
-                found.append(
-                    f"Undercut is likely at the {limit.member}'s {limit.place}: the profile shift x_hm1 = "
-                    f"{limit.profile_shift:.3f} is {bound} of {limit.limit:.3f} (ISO 23509, clause 8)."
-                )
+        found = blank_faults(self.blank, self.undercut)
         found += [self._short(side) for side in SIDES if self._misses(side)]
         return tuple(found)
 
@@ -59,12 +46,8 @@ class HobbedDesign:
 
     def _short(self, side: Side) -> str:
         """A flank that does not reach its target: how near it came, and what would help."""
-        own = self.fit.sides[side]
-        words = (
-            f"The pinion's {side} flank keeps {1e3 * own.largest:.1f} um from its target ease-off "
-            f"(rms {1e3 * own.rms:.1f} um; tolerance {1e3 * self.request.tolerance:g} um) with method "
-            f'"{self.request.pinion_method}", both flanks cut in one setting-up'
-        )
+        words = short_of_target(side, self.fit.sides[side], self.request)
+        words += ", both flanks cut in one setting-up"
         helpful = [
             f"{name} (rms {1e3 * rms:.1f} um)"
             for name, rms in self.fit.helpful
@@ -97,16 +80,7 @@ def design_hobbed(request: HobbedRequest) -> HobbedDesign:
         )
         raise DesignError([Problem("pinion.method", given, expected, 'method = "tilt"')])
     spec = _spec(request, blank, wheel, fit)
-    return HobbedDesign(request, blank, wheel, fit, spec, _undercut(request, blank))
-
-
-def _undercut(request: HobbedRequest, blank: PairBlank) -> tuple[UndercutLimit, ...]:
-    asked, cones = request.blank, blank.cones
-    angles = cones.pinion_pitch_angle, cones.wheel_pitch_angle
-    factors = tooth_factors(asked.tooth, cones.teeth, angles)[0]
-    tooth = crown_gear_tooth(cones, asked.cutter_radius, asked.blade_groups)
-    generated = request.wheel_method == "generated"
-    return undercut_limits(blank, factors, tooth, wheel_generated=generated)
+    return HobbedDesign(request, blank, wheel, fit, spec, likely_undercut(request, blank))
 
 
 def _spec(
@@ -131,7 +105,7 @@ def _spec(
 def _wheel(request: HobbedRequest, blank: PairBlank, wheel: HobbedWheel) -> MemberSpec:
     cut, plan = wheel.cut, wheel.plan
     bend = 1.0 / plan.curvature if plan.curvature else 0.0
-    dials = _dials(cut.settings, blank.wheel.pitch_apex_beyond_crossing_point)
+    dials = sheet_dials(cut.settings, blank.wheel.pitch_apex_beyond_crossing_point)
 
     def flank(i: int) -> FlankSpec:
         blade = _stick(request, plan.eccentric_angle, cut.radii[i], cut.angles[i])
@@ -157,7 +131,7 @@ def _pinion(
     request: HobbedRequest, blank: PairBlank, wheel: HobbedWheel, fit: HobbedFit, edge: float
 ) -> MemberSpec:
     plan, own, toprem = wheel.plan, blank.pinion, request.grind.pinion_toprem
-    dials = _dials(fit.settings, own.pitch_apex_beyond_crossing_point)
+    dials = sheet_dials(fit.settings, own.pitch_apex_beyond_crossing_point)
     method = SHEET_METHODS[request.pinion_method]
 
     def flank(i: int) -> FlankSpec:

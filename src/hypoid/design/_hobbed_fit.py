@@ -16,7 +16,8 @@ from hypoid.machine import MachineSettings
 from ._conjugate import COLUMNS as GRID_COLUMNS
 from ._conjugate import ROWS as GRID_ROWS
 from ._conjugate import Conjugate, conjugate
-from ._fit import CUT, Fit, Look, gauss_newton
+from ._fit import Fit, Look, gauss_newton, promised
+from ._flank_fit import MOST_ADVICE, plain_settings
 from ._hobbed_joint import (
     BLADES,
     COLUMNS,
@@ -25,18 +26,18 @@ from ._hobbed_joint import (
     JointModel,
     JointSeen,
     Memory,
-    Wish,
     joint_model,
     joint_vector,
 )
 from ._hobbed_request import HobbedRequest
 from ._hobbed_start import Start, conjugate_start, pinion_thickness, plain_start
 from ._hobbed_wheel import HobbedWheel, head_plan
+from ._joint_fit import Wish
 from ._milled_wheel import pitch_cone
 from ._motion_depth import motion_depth
 from ._pinion_methods import HEAD, METHODS, step_limits
 from ._pinion_model import UM, target_places
-from ._settings_model import BLADE, MOTIONS, NAMES, ROLL, settings_of
+from ._settings_model import BLADE, MOTIONS, NAMES, ROLL
 from ._target import MotionTarget, Target
 
 Array = np.ndarray[Any, Any]
@@ -106,16 +107,7 @@ class HobbedFit:
     @property
     def undetermined(self) -> tuple[str, ...]:
         """Directions that the target does not determine, and which were left alone, in words."""
-        values, rows = self.fit.singular_values, self.fit.directions
-        return tuple(
-            ", ".join(
-                f"{self.free[k]} {row[k]:+.2f}"
-                for k in np.argsort(-np.abs(row))[:4]
-                if abs(row[k]) > 0.1
-            )
-            for value, row in zip(values, rows, strict=True)
-            if value <= CUT * values[0]
-        )
+        return self.fit.undetermined(self.free)
 
 
 def fit_hobbed(
@@ -344,7 +336,7 @@ class _Work:
             spacing = plan.spacing - (model.thickness - thickness) / (model.across * ratio)
             thickness = model.thickness
         blades = vector[len(NAMES) - len(BLADE) :].reshape(2, len(BLADE))
-        settings = _plain(vector[COLUMNS["concave"]], ratio)
+        settings = replace(plain_settings(vector[COLUMNS["concave"]]), roll_to_blade_ratio=ratio)
         return HobbedFit(
             settings=settings,
             radii=(float(blades[0, 0]), float(blades[1, 0])),
@@ -361,46 +353,20 @@ class _Work:
         )
 
 
-def _plain(vector: Array, ratio: float) -> MachineSettings:
-    """The settings of a flank's vector as plain numbers, with no motion where there is none."""
-    held = settings_of([float(v) for v in vector])
-    moved = held.motions
-    names = type(moved).__dataclass_fields__
-    kept = {n: getattr(moved, n) if any(getattr(moved, n)) else () for n in names}
-    roll = tuple(held.modified_roll)
-    while roll and not roll[-1]:
-        roll = roll[:-1]
-    motions = replace(moved, **kept)
-    return replace(held, roll_to_blade_ratio=ratio, modified_roll=roll, motions=motions)
-
-
 def _helpful(
     model: JointModel, seen: JointSeen, free: tuple[str, ...], limits: Mapping[str, float]
 ) -> tuple[tuple[str, float], ...]:
     """What one more free entry would leave of the residual, by one linear step, the best first."""
     scale = np.array([limits[name] for name in JOINT])
-    jacobian = seen.jacobian * scale
-    basis, values, _ = np.linalg.svd(jacobian[:, [PLACE[n] for n in free]], full_matrices=False)
-    basis = basis[:, values > CUT * values[0]]
     mine: list[int] = []
     at = 0
     for own in model.sides.values():
         count = int(own.there.sum())
         mine += range(at, at + count)
         at += count + len(model.root_distance)
-
-    def off(v: Array) -> Array:
-        return v - basis @ (basis.T @ v)
-
-    left = off(seen.residual)
-    found: list[tuple[str, float]] = []
-    for name in ADVICE:
-        if name in free:
-            continue
-        column = off(jacobian[:, PLACE[name]])
-        size = float(column @ column)
-        if size < 1e-12:
-            continue
-        rest = left - column * (column @ left) / size
-        found.append((name, float(np.sqrt(np.mean(rest[mine] ** 2)) * UM)))
-    return tuple(sorted(found, key=lambda entry: entry[1])[:3])
+    names = [*free, *(name for name in ADVICE if name not in free)]
+    moving = np.arange(len(names)) < len(free)
+    columns = (seen.jacobian * scale)[:, [PLACE[name] for name in names]]
+    found = promised(columns, seen.residual, moving, mine)
+    best = sorted(found.items(), key=lambda entry: entry[1])[:MOST_ADVICE]
+    return tuple((names[k], UM * rms) for k, rms in best)

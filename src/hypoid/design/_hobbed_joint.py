@@ -21,6 +21,7 @@ from ._conjugate import Conjugate
 from ._hobbed_cut import stick
 from ._hobbed_model import FIXED, ROLLED_AT, ROOT_AT, Stick
 from ._hobbed_start import Start
+from ._joint_fit import Wish
 from ._pinion_model import FOLDING, LEFT, UM, target_places
 from ._settings_model import BLADE, INDEX, NAMES, vector_of
 from ._target import Target
@@ -51,14 +52,6 @@ SIDE_ROOTS = 2.0**0.5  # both corners are looked at: together they weigh as one
 
 # where Newton starts: s, turn and phi of the flank, turn and phi of the root
 Memory = Mapping[Side, tuple[Array, Array, Array, Array, Array]]
-
-
-@dataclass(frozen=True)
-class Wish:
-    """A value that an entry of the joint vector should keep near, and how far it may stray (mm, rad)."""
-
-    value: float
-    spread: float
 
 
 @dataclass(frozen=True)

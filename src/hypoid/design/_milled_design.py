@@ -7,37 +7,19 @@ from dataclasses import dataclass
 from math import cos, sin
 from typing import Any
 
-from hypoid.blank import (
-    DepthFactors,
-    PairBlank,
-    UndercutLimit,
-    crown_gear_tooth,
-    iso_blank,
-    tooth_factors,
-    undercut_limits,
-)
+from hypoid.blank import PairBlank, UndercutLimit, iso_blank
 from hypoid.flank import SIDES, Side
 from hypoid.geometry import DesignError, Problem
-from hypoid.machine import MachineSettings, to_sheet
 
+from ._design_faults import blank_faults, likely_undercut, short_of_target
+from ._designed_sheet import SHEET_METHODS, sheet_dials
 from ._flank_fit import FlankFit
 from ._member_blanks import given_blank
 from ._milled_request import TOGETHER, MilledRequest
 from ._milled_wheel import EDGE, ROOM, MilledWheel, milled_wheel
 from ._pinion_fit import fit_pinion
 from ._pinion_task import pinion_task
-from ._sheet_spec import BladeSpec, FlankSpec, MemberSpec, Method, SummarySheetSpec
-
-SHEET_METHODS: dict[str, Method] = {
-    "tilt": "tilt",
-    "modified-roll": "modified-roll",
-    "generated": "generated",
-    "fixed-setting": "modified-roll",
-    "helical": "tilt",
-    "universal": "tilt",
-    "completing": "duplex",
-    "duplex-helical": "helical-duplex",
-}
+from ._sheet_spec import BladeSpec, FlankSpec, MemberSpec, SummarySheetSpec
 
 
 @dataclass(frozen=True)
@@ -54,14 +36,7 @@ class MilledDesign:
     @property
     def faults(self) -> tuple[str, ...]:
         """What keeps the design from what was asked, in words."""
-        found = [fault.value for fault in self.blank.faults]
-        for limit in self.undercut:
-            if not limit.kept:
-                bound = "below its least" if limit.member == "pinion" else "above its greatest"
-                found.append(
-                    f"Undercut is likely at the {limit.member}'s {limit.place}: the profile shift x_hm1 = "
-                    f"{limit.profile_shift:.3f} is {bound} of {limit.limit:.3f} (ISO 23509, clause 8)."
-                )
+        found = blank_faults(self.blank, self.undercut)
         for side, fit in self.fits.items():
             if fit.largest > self.request.tolerance:
                 found.append(self._short(side, fit))
@@ -69,11 +44,7 @@ class MilledDesign:
 
     def _short(self, side: Side, fit: FlankFit) -> str:
         """A flank that does not reach its target: how near it came, and what would help."""
-        words = (
-            f"The pinion's {side} flank keeps {1e3 * fit.largest:.1f} um from its target ease-off "
-            f"(rms {1e3 * fit.rms:.1f} um; tolerance {1e3 * self.request.tolerance:g} um) with method "
-            f'"{self.request.pinion_method}"'
-        )
+        words = short_of_target(side, fit, self.request)
         if fit.held:
             words += f"; {', '.join(fit.held)}"
         helpful = [
@@ -106,17 +77,13 @@ def design_milled(request: MilledRequest) -> MilledDesign:
         )
         raise DesignError([Problem("pinion.method", given, expected, 'method = "tilt"')])
     return MilledDesign(
-        request, blank, wheel, fits, _spec(request, blank, wheel, fits), _undercut(request, blank)
+        request,
+        blank,
+        wheel,
+        fits,
+        _spec(request, blank, wheel, fits),
+        likely_undercut(request, blank),
     )
-
-
-def _undercut(request: MilledRequest, blank: PairBlank) -> tuple[UndercutLimit, ...]:
-    cones = blank.cones
-    angles = cones.pinion_pitch_angle, cones.wheel_pitch_angle
-    factors: DepthFactors = tooth_factors(request.blank.tooth, cones.teeth, angles)[0]
-    tooth = crown_gear_tooth(cones, request.blank.cutter_radius, 0)
-    generated = request.wheel_method == "generated"
-    return undercut_limits(blank, factors, tooth, wheel_generated=generated)
 
 
 def _spec(
@@ -135,7 +102,7 @@ def _spec(
     def wheel_flank(side: Side) -> FlankSpec:
         i = 0 if side == "concave" else 1
         blade = BladeSpec(cut.point_radii[i], cut.blade_angles[i], wheel.edge_radius, land)
-        dials = _dials(wheel.settings, blank.wheel.pitch_apex_beyond_crossing_point)
+        dials = sheet_dials(wheel.settings, blank.wheel.pitch_apex_beyond_crossing_point)
         return FlankSpec(request.wheel_method, "basic", dials, blade, _AT_WHEEL)
 
     def pinion_flank(side: Side) -> FlankSpec:
@@ -143,7 +110,7 @@ def _spec(
         blade = BladeSpec(
             fit.point_radius, fit.blade_angle, edge, own_land if together else None, **_curve(fit)
         )
-        dials = _dials(fit.settings, blank.pinion.pitch_apex_beyond_crossing_point)
+        dials = sheet_dials(fit.settings, blank.pinion.pitch_apex_beyond_crossing_point)
         method = SHEET_METHODS[request.pinion_method]
         at_flank = (
             _AT_WHEEL if together else frozenset(f"settings.{name}" for name in dials) | _AT_PINION
@@ -201,28 +168,3 @@ def _pinion_edge(blank: PairBlank, wheel: MilledWheel, fits: Mapping[Side, Flank
 
 _AT_WHEEL = frozenset({"blade.angle"})
 _AT_PINION = frozenset({"blade.angle", "blade.point_diameter"})
-_PLAIN = (
-    "radial_distance", "cradle_angle", "tilt_angle", "swivel_angle", "blank_offset",
-    "machine_root_angle", "machine_center_to_back", "sliding_base",
-)  # fmt: skip
-
-
-def _dials(settings: MachineSettings, apex: float) -> dict[str, Any]:
-    """Basic settings as the file takes them, signs of the sheet: what rests is left out."""
-    sheet = to_sheet(settings, apex)
-    dials: dict[str, Any] = {name: float(getattr(sheet, name)) for name in _PLAIN}
-    if settings.generated:
-        dials["ratio_of_roll"] = float(sheet.ratio_of_roll)
-        if sheet.helical_motion:
-            dials["helical_motion"] = float(sheet.helical_motion)
-        if any(sheet.modified_roll):
-            dials["modified_roll"] = tuple(float(c) for c in sheet.modified_roll)
-    else:
-        dials["ratio_of_roll"] = 0.0
-    motions = {
-        name: tuple(float(c) for c in getattr(sheet.motions, name))
-        for name in sheet.motions.moved()
-    }
-    if motions:
-        dials["motions"] = motions
-    return dials
