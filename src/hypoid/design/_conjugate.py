@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import jax.numpy as jnp
 import numpy as np
@@ -47,6 +47,49 @@ class Conjugate:
     cradle_point: Array  # (n, 3) the wheel's point in the cradle frame
     there: Array  # bool: generated at all, and on the pinion's blank
     middle: int  # the point next to the mean point
+
+
+class CutterPlace(Protocol):
+    """Where a form-cut wheel's cutter stands; mm and rad, signs of the generator chain."""
+
+    @property
+    def radial_distance(self) -> float: ...
+    @property
+    def cradle_angle(self) -> float: ...
+    @property
+    def machine_root_angle(self) -> float: ...
+    @property
+    def machine_center_to_back(self) -> float: ...
+    @property
+    def sliding_base(self) -> float: ...
+
+
+def facing_settings(
+    cut: CutterPlace, blank: PairBlank, height: float, roll_to_blade_ratio: float = 0.0
+) -> MachineSettings:
+    """Settings of a pinion cutter that stands on a form-cut wheel's cutter axis and faces it.
+
+    On a cradle along the wheel's axis; its plane lies ``height`` mm beyond the wheel cutter's [notes on
+    vimercati2005, baseline pinion: blades of the opposite kind].
+    """
+    root = cut.machine_root_angle
+    sine, cosine = math.sin(root), math.cos(root)
+    along = cut.radial_distance * math.cos(cut.cradle_angle)
+    x = sine * along + cosine * (cut.sliding_base + height)
+    y = -cut.radial_distance * math.sin(cut.cradle_angle)
+    z = sine * (height + cut.sliding_base) - cosine * along + cut.machine_center_to_back
+    q = math.atan2(-y, x)
+    return MachineSettings(
+        radial_distance=math.hypot(x, y),
+        cradle_angle=q,
+        machine_root_angle=blank.shaft_angle - 0.5 * math.pi,
+        ratio_of_roll=blank.wheel.teeth / blank.pinion.teeth,
+        roll_to_blade_ratio=roll_to_blade_ratio,
+        tilt_angle=0.5 * math.pi - root,
+        swivel_angle=q - 0.5 * math.pi,
+        blank_offset=blank.offset,
+        sliding_base=-z,
+    )
 
 
 def wheel_as_cradle(blank: PairBlank) -> MachineSettings:

@@ -21,16 +21,14 @@ import jax.numpy as jnp
 
 from hypoid.cutter import EdgePiece, stick_edges
 from hypoid.flank import PitchCone
-from hypoid.geometry import Batch, Batched, Scalar, Vector, cross, dot, sine_cosine, turn_z, unit
+from hypoid.geometry import Batch, Batched, Scalar, Vector, dot, sine_cosine, turn_z, unit
 from hypoid.machine import Generator, generator, meshing_function, place, sweep
 
+from ._newton_sweep import Turns, determinant, newton_sweep, solved
 from ._settings_model import BLADE, INDEX, settings_of
 
-STEPS = 40
 LIMITS = (1.0, 0.03, 0.03)  # of one step: mm, rad, rad
-ARRIVED = 1e-11  # mm and rad
 FIXED = 10  # rows before those of n . dr/dp
-Unknowns = tuple[Batch, Batch, Batch]
 
 
 @jax.tree_util.register_dataclass
@@ -68,61 +66,6 @@ def stick_pieces(vector: Any, stick: Stick) -> tuple[EdgePiece, EdgePiece]:
     )
 
 
-def _newton(function: Any, start: Unknowns) -> tuple[Unknowns, tuple[Batch, ...], Any]:
-    """Newton in three unknowns with limited steps towards the zero of a function's first three values.
-
-    Returns where it ended, all values there, and their rows of the Jacobian. All points side by side,
-    as long as one of them still moves.
-    """
-
-    def look(at: Unknowns) -> tuple[tuple[Batch, ...], Any]:
-        one, zero = jnp.ones_like(at[0]), jnp.zeros_like(at[0])
-        ways = tuple(jnp.stack([one if k == j else zero for k in range(3)]) for j in range(3))
-
-        def push(*direction: Batch) -> Any:
-            return jax.jvp(function, at, direction)
-
-        values, slopes = jax.vmap(push, out_axes=(None, 0))(*ways)
-        return values, slopes  # slopes[i][k]: value i by unknown k
-
-    def go_on(state: Any) -> Any:
-        count, _, move, *_ = state
-        still = sum(jnp.abs(d) for d in move) > ARRIVED
-        return (count == 0) | ((count < STEPS) & jnp.any(still))
-
-    def step(state: Any) -> Any:
-        count, at, move, *_ = state
-        at = tuple(a - d for a, d in zip(at, move, strict=True))
-        values, j = look(at)
-        move = _solved(j, values[:3])
-        reach = [jnp.abs(d) / limit for d, limit in zip(move, LIMITS, strict=True)]
-        k = 1.0 / jnp.maximum(1.0, jnp.maximum(reach[0], jnp.maximum(reach[1], reach[2])))
-        k = jnp.where(jnp.isfinite(k), k, 0.0)
-        return count + 1, at, tuple(k * jnp.nan_to_num(d) for d in move), values, j
-
-    # Each turn moves first and looks then, so that what is seen last needs no compiling of its own.
-    zero = jnp.zeros_like(start[0])
-    seen = (zero,) * len(jax.eval_shape(function, *start))
-    rows = (jnp.zeros((3, *zero.shape)),) * len(seen)
-    _, at, _, values, j = jax.lax.while_loop(go_on, step, (0, start, (zero,) * 3, seen, rows))
-    return at, values, j
-
-
-def _determinant(j: Any) -> Batch:
-    return dot(tuple(j[0]), cross(tuple(j[1]), tuple(j[2])))
-
-
-def _solved(j: Any, values: Any) -> Unknowns:
-    """Solve a batch of 3 x 3 systems: rows j, right-hand side values."""
-    rows = [tuple(row) for row in j]
-    first, second, third = cross(rows[1], rows[2]), cross(rows[2], rows[0]), cross(rows[0], rows[1])
-    share = 1.0 / dot(rows[0], first)
-    return tuple(  # pyright: ignore[reportReturnType]
-        share * (values[0] * a + values[1] * b + values[2] * c)
-        for a, b, c in zip(first, second, third, strict=True)
-    )
-
-
 def _carried(
     vector: Any, stick: Stick, which: int, s: Batch, turn: Batch, phi: Batch
 ) -> tuple[Vector, Vector, Batch]:
@@ -135,7 +78,7 @@ def _carried(
     return at.point, at.normal, at.turn
 
 
-def _slopes(vector: Any, stick: Stick, which: int, at: Unknowns, normal: Vector) -> Batch:
+def _slopes(vector: Any, stick: Stick, which: int, at: Turns, normal: Vector) -> Batch:
     """N . dr/dp of points, one row for each entry of the vector."""
 
     def point(p: Any) -> Vector:
@@ -166,7 +109,7 @@ def _sought(vector: Any, stick: Stick, which: int, rolled: bool) -> Any:
     return at
 
 
-def _turned_normal(vector: Any, stick: Stick, which: int, at: Unknowns) -> tuple[Vector, Vector]:
+def _turned_normal(vector: Any, stick: Stick, which: int, at: Turns) -> tuple[Vector, Vector]:
     """Points and unit normals in the member's frame."""
     point, normal, own = _carried(vector, stick, which, *at)
     sine, cosine = sine_cosine(-own)
@@ -190,12 +133,12 @@ def _flank_by(rolled: bool) -> Any:
             left, at_z, at_rho, angle = sought(*at)
             return left, at_z - z, at_rho - rho, angle
 
-        at, (f, g, h, angle), j = _newton(off, (s, turn, phi))
+        at, (f, g, h, angle), j = newton_sweep(off, (s, turn, phi), LIMITS)
         position, normal = _turned_normal(vector, stick, 0, at)
         lever = position[0] * normal[1] - position[1] * normal[0]
         slopes = _slopes(vector, stick, 0, at, normal)
         left = jnp.sqrt(f * f + g * g + h * h)
-        sense = _determinant(j) / j[0][2]  # of (z, rho) over (s, turn), meshing kept
+        sense = determinant(j) / j[0][2]  # of (z, rho) over (s, turn), meshing kept
         return *at, angle, left, lever, sense, *_around(position, normal), *slopes
 
     flank.__qualname__ = f"hobbed flank, {'rolled' if rolled else 'form cut'}"
@@ -224,11 +167,11 @@ def _root(
         return left, s, reached - distance, height
 
     start = (jnp.zeros_like(distance), turn, phi)
-    at, (f, _, g, height), j = _newton(lambda *x: off(vector, *x), start)
+    at, (f, _, g, height), j = newton_sweep(lambda *x: off(vector, *x), start, LIMITS)
 
     def along(direction: Any) -> Batch:
         moved = jax.jvp(lambda p: off(p, *at), (vector,), (direction,))[1]
-        follow = _solved(j, moved[:3])
+        follow = solved(j, moved[:3])
         return moved[3] - dot(tuple(j[3]), follow)
 
     slopes = jax.vmap(along)(jnp.eye(vector.shape[0]))

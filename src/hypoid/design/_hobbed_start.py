@@ -9,8 +9,8 @@ import numpy as np
 
 from hypoid.blank import PairBlank
 from hypoid.flank import Flank, Side
-from hypoid.machine import MachineSettings
 
+from ._conjugate import facing_settings
 from ._hobbed_cut import HeadPlan, HobbedCut, hobbed_cut
 from ._hobbed_wheel import HobbedWheel, hobbed_flanks, planned_head, reach_of
 from ._milled_wheel import pitch_cone
@@ -51,31 +51,14 @@ def plain_start(plan: HeadPlan, blank: PairBlank, thickness: float) -> Start | N
 def conjugate_start(plan: HeadPlan, blank: PairBlank, wheel: HobbedWheel) -> Start | None:
     """The pinion that a form-cut wheel generates, exactly so with straight, unraked blades.
 
-    The cutter stands on the wheel cutter's axis and faces it, on a cradle along the wheel's axis; its
-    blades are the wheel's, of the opposite kind [notes on vimercati2005, baseline pinion].
+    Its blades are the wheel's, of the opposite kind.
     """
-    cut, own = wheel.cut, blank.wheel
-    settings, root = cut.settings, cut.settings.machine_root_angle
-    sine, cosine = math.sin(root), math.cos(root)
-    depth = blank.pinion.mean_dedendum  # of the pinion's tips below the wheel blades' P
-    height = cut.height + depth
-    along = settings.radial_distance * math.cos(settings.cradle_angle)
-    base = -settings.sliding_base
-    x = sine * along - cosine * base + height * cosine
-    y = -settings.radial_distance * math.sin(settings.cradle_angle)
-    z = height * sine - (cosine * along + sine * base - settings.machine_center_to_back)
-    q = math.atan2(-y, x)
-    made = MachineSettings(
-        radial_distance=math.hypot(x, y),
-        cradle_angle=q,
-        machine_root_angle=blank.shaft_angle - 0.5 * math.pi,
-        ratio_of_roll=own.teeth / blank.pinion.teeth,
-        roll_to_blade_ratio=plan.groups / blank.pinion.teeth,
-        tilt_angle=0.5 * math.pi - root,
-        swivel_angle=q - 0.5 * math.pi,
-        blank_offset=blank.offset,
-        sliding_base=-z,
-    )
+    cut, depth = (
+        wheel.cut,
+        blank.pinion.mean_dedendum,
+    )  # of the pinion's tips below the wheel blades' P
+    ratio = plan.groups / blank.pinion.teeth
+    made = facing_settings(cut.settings, blank, cut.height + depth, ratio)
     (outer, inner), (first, second) = cut.radii, cut.angles
     twin = HobbedCut(made, (inner, outer), (second, first), depth, (0.0, 0.0), 0.0)
     return _cut_start(twin, plan, blank, None)

@@ -11,7 +11,7 @@ from hypoid.blank import PairBlank
 from hypoid.flank import Side
 from hypoid.machine import MachineSettings, generator
 
-from ._conjugate import Conjugate
+from ._conjugate import Conjugate, facing_settings
 from ._milled_wheel import MilledWheel
 from ._settings_model import INDEX, settings_of, vector_of
 from ._wheel_settings import wheel_cut
@@ -23,30 +23,11 @@ Places = tuple[Array, Array, Array]  # edge parameter (mm), cutter's and cradle'
 def conjugate_start(wheel: MilledWheel, blank: PairBlank, side: Side) -> Array:
     """The vector of the pinion flank that a form-cut wheel flank generates exactly.
 
-    The cutter stands on the wheel cutter's axis and faces it, on a cradle along the wheel's axis; its
-    blade is the wheel's cone [notes on vimercati2005: blades of the opposite kind].
+    Its blade is the wheel's cone, of the opposite kind.
     """
-    cut, own = wheel.cut, blank.wheel
-    root = cut.machine_root_angle
-    sine, cosine = math.sin(root), math.cos(root)
-    height = cut.depth + own.mean_addendum + (blank.clearance or 0.0)
-    along = cut.radial_distance * math.cos(cut.cradle_angle)
-    deeper = -cut.sliding_base
-    x = sine * along - cosine * deeper + height * cosine
-    y = -cut.radial_distance * math.sin(cut.cradle_angle)
-    z = height * sine - (cosine * along + sine * deeper - cut.machine_center_to_back)
-    q = math.atan2(-y, x)
-    settings = MachineSettings(
-        radial_distance=math.hypot(x, y),
-        cradle_angle=q,
-        machine_root_angle=blank.shaft_angle - 0.5 * math.pi,
-        ratio_of_roll=own.teeth / blank.pinion.teeth,
-        roll_to_blade_ratio=0.0,
-        tilt_angle=0.5 * math.pi - root,
-        swivel_angle=q - 0.5 * math.pi,
-        blank_offset=blank.offset,
-        sliding_base=-z,
-    )
+    cut = wheel.cut
+    height = cut.depth + blank.wheel.mean_addendum + (blank.clearance or 0.0)
+    settings = facing_settings(cut, blank, height)
     i = 1 if side == "concave" else 0  # the pinion's outside blade is the wheel's inside cone
     angle = cut.blade_angles[i]
     sign = -1.0 if side == "concave" else 1.0

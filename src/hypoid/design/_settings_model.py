@@ -14,7 +14,6 @@ exact and need no second solve. How the edge parameter at a place moves follows 
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import jax
@@ -28,7 +27,6 @@ from hypoid.geometry import (
     Batched,
     Scalar,
     Vector,
-    cross,
     dot,
     once,
     sine_cosine,
@@ -44,6 +42,8 @@ from hypoid.machine import (
     place,
     sweep,
 )
+
+from ._newton_sweep import Turns, determinant, newton_sweep, solved
 
 SETTINGS = (
     "radial_distance", "cradle_angle", "tilt_angle", "swivel_angle", "blank_offset",
@@ -63,8 +63,6 @@ INDEX = {name: k for k, name in enumerate(NAMES)}
 ANGLES = frozenset(
     name for name in NAMES if name.rsplit("_", 1)[0] in ("tilt_angle", "swivel_angle", "machine_root_angle")
 ) | {"cradle_angle", "tilt_angle", "swivel_angle", "machine_root_angle", "blade_angle"}  # fmt: skip
-NEWTON = 30
-ARRIVED = 1e-11  # mm
 LIMITS = (1.0, 0.05, 0.05)  # of one Newton step in edge (mm), cutter's and cradle's turn (rad)
 
 
@@ -108,9 +106,6 @@ def edge_of(vector: Any, side: Scalar, reference: Scalar) -> EdgePiece:
     return mill_edge(radius, angle, bend, side=side, reference_height=reference)
 
 
-Turns = tuple[Batch, Batch, Batch]  # edge parameter (mm), cutter's turn and cradle's turn (rad)
-
-
 def _placed(vector: Any, edge: EdgePiece, at: Turns) -> Placed:
     """Points of the sweep before the work's own turn."""
     gen = generator(settings_of(vector), axes_move=True)
@@ -146,56 +141,6 @@ def _position_and_normal(
     return turn_z(cosine, sine, there.point), turn_z(cosine, sine, normal)
 
 
-def _newton(
-    function: Callable[[Turns], tuple[Batch, ...]], start: Turns
-) -> tuple[Turns, tuple[Batch, ...], Batch, tuple[Batch, ...]]:
-    """Newton towards the zero of a function's first three values, side by side, with limited steps.
-
-    Returns where it ended, all values, the determinant of the derivatives there, and the first unknown's
-    derivatives by the three values.
-    """
-
-    def look(at: Turns) -> tuple[tuple[Batch, ...], Any, Batch, Any]:
-        directions = jnp.eye(3)[:, :, None] * jnp.ones_like(at[0])
-
-        def push(direction: Any) -> Any:
-            return jax.jvp(function, (at,), ((direction[0], direction[1], direction[2]),))
-
-        values, slopes = jax.vmap(push, out_axes=(None, 0))(directions)
-        f, g, h = once((slopes[0], slopes[1], slopes[2]))
-        determinant = dot(f, cross(g, h))
-        inverse = [
-            tuple(c / determinant for c in v) for v in (cross(g, h), cross(h, f), cross(f, g))
-        ]
-        step = [
-            values[0] * a + values[1] * b + values[2] * c for a, b, c in zip(*inverse, strict=True)
-        ]
-        size = jnp.max(jnp.stack([jnp.abs(d) / n for d, n in zip(step, LIMITS, strict=True)]), 0)
-        share = jnp.where(jnp.isfinite(size), 1.0 / jnp.maximum(1.0, size), 0.0)
-        step = tuple(share * jnp.nan_to_num(d) for d in step)
-        return values, step, determinant, tuple(row[0] for row in inverse)
-
-    def left(values: tuple[Batch, ...]) -> Batch:
-        return jnp.abs(values[0]) + jnp.abs(values[1]) + jnp.abs(values[2])
-
-    def go_on(state: Any) -> Any:
-        count, _, _, values, *_ = state
-        return (count < NEWTON) & jnp.any(left(values) > ARRIVED)
-
-    def again(state: Any) -> Any:
-        count, at, step, *_ = state
-        at = tuple(a - d for a, d in zip(at, step, strict=True))
-        values, step, *slopes = look(at)
-        return count + 1, at, step, values, *slopes
-
-    nowhere = jnp.full_like(start[0], jnp.inf)
-    zero = jnp.zeros_like(nowhere)
-    count = len(jax.eval_shape(function, start))
-    state = (0, start, (zero,) * 3, (nowhere,) * count, zero, (zero,) * 3)
-    _, at, _, values, determinant, first = jax.lax.while_loop(go_on, again, state)
-    return at, values, determinant, first
-
-
 def _slopes(point_of: Any, vector: Any, normal: Any) -> Any:
     """N . dr/dp of points, one row for each entry of the vector."""
     directions = jnp.eye(vector.shape[0])
@@ -222,11 +167,11 @@ def _flank(
     n . dr/dp, and then ds/dp.
     """
 
-    def place_at(at: Turns) -> tuple[Batch, ...]:
+    def place_at(*at: Batch) -> tuple[Batch, ...]:
         rate, at_z, at_rho, angle = _met(vector, edge_of(vector, side, reference), at)
         return at_z - z, at_rho - rho, rate, angle
 
-    at, (f, g, rate, angle), sense, first = _newton(place_at, (s, theta, phi))
+    at, (f, g, rate, angle), rows = newton_sweep(place_at, (s, theta, phi), LIMITS)
     edge = edge_of(vector, side, reference)
     position, normal = once(_position_and_normal(vector, edge, at, outward))
     lever = position[0] * normal[1] - position[1] * normal[0]
@@ -238,11 +183,11 @@ def _flank(
 
         rate, at_z, at_rho, angle = jax.jvp(met, (vector,), (direction,))[1]
         moved = normal[2] * at_z + radial * at_rho + lever * angle
-        return moved, -(first[0] * at_z + first[1] * at_rho + first[2] * rate)
+        return moved, -solved(rows, (at_z, at_rho, rate))[0]
 
     slopes, along = jax.vmap(by)(jnp.eye(vector.shape[0]))
     left = jnp.sqrt(f * f + g * g + rate * rate)
-    return *at, angle, left, lever, sense, *slopes, *along
+    return *at, angle, left, lever, determinant(rows), *slopes, *along
 
 
 def _root(
@@ -259,13 +204,13 @@ def _root(
         along, metal = (side * one, zero, zero), (zero, zero, one)
         return EdgePiece((radius, zero, zero), along, metal, zero, zero, zero, zero, zero)
 
-    def place_at(at: Turns) -> tuple[Batch, ...]:
+    def place_at(*at: Batch) -> tuple[Batch, ...]:
         rate, z, rho, _ = _met(vector, tip(vector), at)
         reached, height = cone.cone_distance_height(z, rho)
         return at[0], reached - distance, rate, height
 
     start = (jnp.zeros_like(distance), theta, phi)
-    at, (_, left, rate, height), *_ = _newton(place_at, start)
+    at, (_, left, rate, height), _ = newton_sweep(place_at, start, LIMITS)
     position, normal = _position_and_normal(vector, tip(vector), at, 1.0)
     radius = jnp.hypot(position[0], position[1])
     radial = (position[0] * normal[0] + position[1] * normal[1]) / radius
