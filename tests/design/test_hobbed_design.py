@@ -32,8 +32,9 @@ from hypoid.design._hobbed_model import FIXED, ROLLED_AT, ROOT_AT
 from hypoid.design._hobbed_start import conjugate_start, pinion_thickness
 from hypoid.design._hobbed_wheel import head_plan, hobbed_wheel
 from hypoid.design._milled_wheel import pitch_cone
-from hypoid.design._motion_depth import motion_depth
+from hypoid.design._motion import motion_of
 from hypoid.design._settings_model import NAMES
+from hypoid.design._target import TargetPlaces
 from hypoid.flank import SIDES, PointStatus, Side, flank_angles
 from hypoid.geometry import DesignError
 from hypoid.io import read_spec
@@ -272,15 +273,19 @@ def test_too_deep_a_slot_names_the_limit() -> None:
     assert caught.value.problems
 
 
-def test_motion_depth_of_a_parabola() -> None:
+def test_motion_of_a_parabola() -> None:
     """A (pitch/2)**2 where pairs hand over half a pitch from the summit, whatever stands beside it."""
-    v, u = np.meshgrid(np.linspace(-1, 1, 7), np.linspace(-1, 1, 13), indexing="ij")
-    turn = (0.2 * u + 0.1 * v).ravel()
-    lead = 3e-3 * turn**2 + 1e-4 * (u.ravel() - 0.5 * v.ravel()) ** 2
-    there = np.ones(turn.size, dtype=bool)
-    found = motion_depth((7, 13), there, lead, turn, 0.2)
-    assert found == pytest.approx(3e-3 * 0.1**2, rel=0.04)
-    assert np.isnan(motion_depth((7, 13), there, lead, turn, 2.0))
+    v, u = (
+        g.ravel() for g in np.meshgrid(np.linspace(-1, 1, 7), np.linspace(-1, 1, 13), indexing="ij")
+    )
+    turn = 0.2 * u + 0.1 * v
+    lead = 3e-3 * turn**2 + 1e-4 * (u - 0.5 * v) ** 2
+
+    def found(pitch: float) -> Any:
+        return motion_of(TargetPlaces(u, v, v, u, turn, np.ones_like(u), pitch), lead)
+
+    assert found(0.2).peak_to_peak == pytest.approx(3e-3 * 0.1**2, rel=0.04)
+    assert found(2.0) is None
 
 
 def test_exact_pair_as_a_sheet_has_the_exact_flanks() -> None:

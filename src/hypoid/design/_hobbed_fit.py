@@ -13,8 +13,6 @@ from hypoid.blank import PairBlank
 from hypoid.flank import SIDES, Side
 from hypoid.machine import MachineSettings
 
-from ._conjugate import COLUMNS as GRID_COLUMNS
-from ._conjugate import ROWS as GRID_ROWS
 from ._conjugate import Conjugate, conjugate
 from ._fit import Fit, Look, gauss_newton, promised
 from ._flank_fit import MOST_ADVICE, plain_settings
@@ -34,7 +32,7 @@ from ._hobbed_start import Start, conjugate_start, pinion_thickness, plain_start
 from ._hobbed_wheel import HobbedWheel, head_plan
 from ._joint_fit import Wish
 from ._milled_wheel import pitch_cone
-from ._motion_depth import motion_depth
+from ._motion import motion_of
 from ._pinion_methods import HEAD, METHODS, step_limits
 from ._pinion_model import UM, target_places
 from ._settings_model import BLADE, MOTIONS, NAMES, ROLL
@@ -241,13 +239,10 @@ def _aimed_again(
         if not (isinstance(target, MotionTarget) and isinstance(now, MotionTarget)):
             continue
         places = target_places(own.conjugate, blank)
-        lever, pitch = places.wheel_lever, float(places.wheel_pitch)
-        c = own.conjugate
-        asked, got = (
-            motion_depth((GRID_ROWS, GRID_COLUMNS), own.there, e / lever, c.roll, pitch)
-            for e in (own.wanted, seen.misfit[side] + own.wanted)
-        )
-        share = asked / got if got > 0.0 else math.nan
+        got = motion_of(places, np.where(own.there, seen.misfit[side] + own.wanted, np.nan))
+        if got is None:
+            continue
+        share = target.transmission_error / got.peak_to_peak
         if not (0.5 < share < 2.0):
             continue
         off |= abs(share - 1.0) > MOTION_MET
