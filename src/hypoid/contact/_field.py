@@ -15,7 +15,7 @@ import jax
 import jax.numpy as jnp
 import numpy as np
 
-from hypoid.flank import Border, Chart, Flank, PitchCone, chart
+from hypoid.flank import Border, Chart, Flank, PitchCone
 from hypoid.geometry import Batch, Vector, compiled_fused, horner, namespace
 
 from ._mounting import Mounting, to_wheel
@@ -24,7 +24,7 @@ from ._mounting import Mounting, to_wheel
 @jax.tree_util.register_dataclass
 @dataclass(frozen=True)
 class AngleField:
-    """A left-hand flank as an angle over (S, H), between its fillet limit and its blade's end."""
+    """A left-hand flank as an angle over (S, H), between fillet limit, or what undercut leaves, and blade's end."""
 
     parts: tuple[Chart, ...]  # from the fillet limit up: a chart of each smooth part
     cone: PitchCone
@@ -58,13 +58,11 @@ def angle_field(flank: Flank) -> AngleField:
     low, high, start = float(piece.low), float(piece.high), float(piece.relief_from)
     relieved = float(piece.relief) != 0.0 and low < start < high
     if not relieved:
-        parts = tuple(flank.charts[name] for name in active(flank))
+        above = tuple(flank.charts[name] for name in active(flank)[1:])
+        parts = (flank.active_chart, *above)
         return AngleField(parts, flank.cone, flank.tip)
     pieces = (replace(piece, high=start, relief=0.0), replace(piece, low=start))
-    parts = tuple(
-        chart(flank.surface, p, flank.cone, flank.toe, flank.heel, flank.theta_start, rooted=False)
-        for p in pieces
-    )
+    parts = tuple(flank.active_chart_of(p) for p in pieces)
     return AngleField(parts, flank.cone, flank.tip)
 
 

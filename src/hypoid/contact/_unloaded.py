@@ -246,7 +246,7 @@ class UnloadedContact:
                 flank.tip.at(distance) - height,
                 distance - flank.toe,
                 flank.heel - distance,
-                s[index] - float(flank.pieces["flank"].low),
+                _above_limit(flank, distance, height, s[index]),
             ]
         return np.array(columns).T
 
@@ -295,7 +295,7 @@ def _refined(
     best: np.ndarray,
 ) -> ContactPoints:
     x, y, z = (np.asarray(c) for c in to_wheel(mount, phi, tuple(nodes.point[:, best])))
-    chart = wheel.charts["flank"]
+    chart = wheel.active_chart
     at = chart.coordinates(*wheel.cone.cone_distance_height(z, np.hypot(x, y)))
     u, v = (np.clip(np.asarray(c), -1.0, 1.0) for c in at)
     out = refine(
@@ -324,5 +324,16 @@ def _within(pinion: Flank, wheel: Flank, points: ContactPoints) -> np.ndarray:
         inside &= (distance >= flank.toe - slack) & (distance <= flank.heel + slack)
         piece = flank.pieces["flank"]
         inside &= height <= flank.tip.at(distance) + slack
-        inside &= (s >= float(piece.low) - slack) & (s <= float(piece.high) + slack)
+        inside &= _above_limit(flank, distance, height, s) >= -slack
+        inside &= s <= float(piece.high) + slack
     return inside
+
+
+def _above_limit(
+    flank: Flank, distance: np.ndarray, height: np.ndarray, s: np.ndarray
+) -> np.ndarray:
+    """How far, mm, points stand above the fillet limit along the edge, or above what undercut takes away."""
+    above = s - float(flank.pieces["flank"].low)
+    if "flank" not in flank.cut_away:
+        return above
+    return np.minimum(above, height - np.asarray(flank.active_chart.bounds(distance)[0]))

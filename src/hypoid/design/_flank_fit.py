@@ -114,7 +114,8 @@ def _worded(name: str, value: float) -> str:
         return f"{degrees(value):.6g} deg"
     if plain == "ratio_of_roll" or plain.startswith("modified_roll"):
         return f"{value:.6g}"
-    return f"{value:.6g} {'mm/rad' if plain == 'helical_motion' else 'mm'}"
+    units = {"helical_motion": "mm/rad", "blade_curvature": "1/mm"}
+    return f"{value:.6g} {units.get(plain, 'mm')}"
 
 
 def _helpful(

@@ -16,7 +16,7 @@ from ._hobbed_fit import HobbedFit, fit_hobbed
 from ._hobbed_request import HobbedRequest
 from ._hobbed_wheel import HobbedWheel, hobbed_wheel
 from ._member_blanks import given_blank
-from ._milled_wheel import EDGE, ROOM
+from ._milled_wheel import EDGE, ROOM, SHARPEST
 from ._sheet_spec import FlankSpec, MemberSpec, StickBladeSpec, SummarySheetSpec
 from ._target import Target
 
@@ -172,9 +172,9 @@ def _stick(request: HobbedRequest, eccentric: float, radius: float, angle: float
 
 
 def _pinion_edge(blank: PairBlank, wheel: HobbedWheel, fit: HobbedFit) -> float:
-    """Edge radius of the pinion's blades, mm: its arc ends below where the wheel's tip comes by."""
+    """Edge radius of the pinion's blades, mm: its arc ends below where the wheel's tip comes by, if it can."""
     usual = min(EDGE * blank.mean_normal_module, 0.9 * wheel.edges[0].largest)
     for side, angle in zip(SIDES, fit.angles, strict=True):
         high = max(0.0, float(fit.sides[side].root_error.max()))
         usual = min(usual, (ROOM * (blank.clearance or 0.0) - high) / (1.0 - sin(angle)))
-    return max(usual, 0.0)
+    return max(usual, SHARPEST * blank.mean_normal_module)

@@ -16,7 +16,7 @@ from ._designed_sheet import SHEET_METHODS, sheet_dials
 from ._flank_fit import FlankFit
 from ._member_blanks import given_blank
 from ._milled_request import TOGETHER, MilledRequest
-from ._milled_wheel import EDGE, ROOM, MilledWheel, milled_wheel
+from ._milled_wheel import EDGE, ROOM, SHARPEST, MilledWheel, milled_wheel
 from ._pinion_fit import fit_pinion
 from ._pinion_task import pinion_task
 from ._sheet_spec import BladeSpec, FlankSpec, MemberSpec, SummarySheetSpec
@@ -155,7 +155,7 @@ def _arc(length: float, angle: float) -> float:
 
 
 def _pinion_edge(blank: PairBlank, wheel: MilledWheel, fits: Mapping[Side, FlankFit]) -> float:
-    """Edge radius of the pinion's blades, mm: its arc ends below where the wheel's tip comes by."""
+    """Edge radius of the pinion's blades, mm: its arc ends below where the wheel's tip comes by, if it can."""
     usual = min(EDGE * blank.mean_normal_module, 0.9 * wheel.edges[0].largest)
     for fit in fits.values():
         room = ROOM * (blank.clearance or 0.0) - max(0.0, float(fit.root_error.max()))
@@ -163,7 +163,7 @@ def _pinion_edge(blank: PairBlank, wheel: MilledWheel, fits: Mapping[Side, Flank
         usual = min(
             usual, _arc(fit.least_edge, fit.blade_angle)
         )  # below all that the wheel touches
-    return max(usual, 0.0)
+    return max(usual, SHARPEST * blank.mean_normal_module)
 
 
 _AT_WHEEL = frozenset({"blade.angle"})

@@ -26,6 +26,7 @@ from ._wheel_settings import WheelCut, wheel_cut
 EDGE = 0.3  # of the mean normal module: the edge radius that practice does not pass
 ROOM = 0.7  # of the clearance, that an edge arc may take
 LEAST_EDGE = 0.15  # of the mean normal module: rather than a sharper edge a form cutter cuts deeper
+SHARPEST = 0.05  # of the mean normal module: no blade has a sharper point, whatever it cuts away
 LEAST_POINT = 0.15  # of the mean normal module: a blade's point must stand
 LAND = 0.98  # of it, that both arcs take
 CORRECTIONS = 2

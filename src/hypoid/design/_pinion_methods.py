@@ -21,6 +21,8 @@ HEAD = ("tilt_angle", "swivel_angle")
 APART = ("blade_angle", "blade_curvature")  # what each blade of one cutter has of its own
 CURVE = "blade_curvature"
 BEND = 1.0 / 300.0  # 1/mm, about zero: blades of one cutter may be curved
+BENT = math.radians(10.0)  # either way, from a curved blade's tips to a whole depth above them
+BLADES = math.radians(1.0), math.radians(45.0)  # blade angles that cutters are ground to
 LEAST_POINT = 0.15  # of the mean normal module: a blade's point must stand
 SIDES = ("concave", "convex")
 
@@ -120,8 +122,10 @@ def chain_value(name: str, value: float, blank: PairBlank) -> float:
 
 
 def bounds_of(limits: PinionLimits, blank: PairBlank) -> Bounds:
-    """Bounds that a request sets on entries, chain's signs: its machine's and its own."""
+    """Bounds on entries, chain's signs: what blades can be, and the request's machine's and its own."""
     bounds = machine_bounds(limits.machine) if limits.machine else {}
+    depth = blank.pinion.mean_addendum + blank.pinion.mean_dedendum
+    bounds |= {"blade_angle": BLADES, CURVE: (-BENT / depth, BENT / depth)}
     for name, ends in limits.ranges.items():
         low, high = sorted(chain_value(name, v, blank) for v in ends)
         least, most = bounds.get(name, (-math.inf, math.inf))

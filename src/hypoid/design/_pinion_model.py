@@ -177,7 +177,7 @@ def pinion_model(
         there,
         distance,
         height,
-        ROOT_SPREAD,
+        root_spread,
         least_edge,
         outward,
         0.0,

@@ -1,5 +1,6 @@
 """Flanks: the envelope of a swept edge, its pieces, and points of it on demand."""
 
+from ._active import first_of as first_of
 from ._angles import FlankAngles as FlankAngles
 from ._angles import flank_angles as flank_angles
 from ._chart import Border as Border

@@ -5,11 +5,12 @@ to heel and H between two of its own edge lines H_low(S) and H_high(S), so that 
 (x, y) in [-1, 1]**2 never asks for a point the piece does not have. A fillet's chart begins at
 its lowest line, where the edge runs along the root: at the root land, or on the arc of a tilted
 cutter or its extension. H grows from there with the square of the edge length, so y counts the root
-of the height.
+of the height. So it does for an undercut flank, which begins near where it would fold.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -86,7 +87,7 @@ class Chart:
     s: Any
     theta: Any
     first: Batch  # powers of the edge parameter (mm) along H_low
-    rooted: Scalar  # 1 where y counts the root of the height (fillet), else 0
+    rooted: Scalar  # 1 where y counts the root of the height (fillet, undercut), else 0
     sense: Scalar  # sign of the derivatives' determinant of (S, H) by (s, theta), mid-face
     error: Scalar  # greatest misfit of the angle seen, rad; infinite where the piece folds
 
@@ -178,6 +179,14 @@ def _nearest_minimum(slope: Any) -> float:
     return float(roots[np.argmin(np.abs(roots))]) if len(roots) else 0.0
 
 
+@dataclass(frozen=True)
+class Floor:
+    """Where a chart begins above its piece's own lower end, since that is cut away (undercut)."""
+
+    height: Callable[[Any], Any]  # H, mm, at x
+    start: Callable[[Any, Any], tuple[Any, Any]]  # s and theta near (S, H)
+
+
 def chart(
     surface: Surface,
     piece: EdgePiece,
@@ -187,12 +196,13 @@ def chart(
     theta_start: float,
     rooted: bool,
     tip: Border | None = None,
+    floor: Floor | None = None,
 ) -> Chart:
     """Chart of a piece between toe and heel (S, mm), not far beyond a tip; nodes that fail keep their start."""
     x, y = nodes(COLUMNS), nodes(ROWS)
     distance = 0.5 * (heel + toe) + 0.5 * (heel - toe) * x
     low, high = np.full(COLUMNS, float(piece.low)), float(piece.high)
-    if rooted:
+    if rooted and floor is None:
         low = _lowest(surface, piece, cone, distance, theta_start)
     theta_low, height_low = edge_line(surface, piece, cone, distance, low, theta_start)
     theta_high, height_high = edge_line(surface, piece, cone, distance, high, theta_start)
@@ -201,12 +211,17 @@ def chart(
         wanted = tip.at(distance) + RESERVE
         reach = np.outer((wanted - height_low) / (height_high - height_low), np.ones(ROWS))
         height_high = wanted
+    if floor is not None:
+        height_low = floor.height(x)
     t = 0.5 * (1.0 + y)
     share = t**2 if rooted else t
     heights = height_low[:, None] + np.outer(height_high - height_low, share)
     along = reach * np.outer(np.ones(COLUMNS), t)
     s0 = low[:, None] + (high - low)[:, None] * along
     theta0 = theta_low[:, None] + (theta_high - theta_low)[:, None] * along
+    if floor is not None:
+        s0, theta0 = floor.start(np.outer(distance, np.ones(ROWS)).ravel(), heights.ravel())
+        low = s0.reshape(heights.shape)[:, 0]
     shape = heights.shape
     s, theta, angle, left, sense = (
         part.reshape(shape)

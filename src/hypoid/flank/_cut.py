@@ -62,9 +62,11 @@ def cut_flank(
     return flank
 
 
-def _sounder(flank: Flank) -> tuple[bool, int]:
-    """Ways compared: a flank chart at all, and how many pieces are whole."""
-    return bool(np.isfinite(flank.charts["flank"].error)), -len(flank.cut_away)
+def _sounder(flank: Flank) -> tuple[bool, int, float]:
+    """Ways compared: a flank chart at all, how many pieces are whole, and what is left of an undercut flank."""
+    whole = bool(np.isfinite(flank.charts["flank"].error))
+    left = 0.0 if whole else float(flank.active_chart.error)
+    return whole, -len(flank.cut_away), -left
 
 
 def _rooted(asked: Flank, way: Way, theta_start: float | None) -> Flank:

@@ -15,6 +15,7 @@ from hypoid.cutter import EdgePiece
 from hypoid.geometry import horner, horner_line, on_unit
 from hypoid.machine import MachineSettings
 
+from ._active import above_undercut
 from ._chart import Border, Chart, PitchCone, chart, height_at
 from ._envelope import Surface
 from ._locate import curvatures, from_cutter, locate, locate_slowly
@@ -113,6 +114,20 @@ class Flank:
             )
             for name in self.cut_pieces
         }
+
+    @cached_property
+    def active_chart(self) -> Chart:
+        """Chart of what is left of the flank: all of it, or what undercut leaves; of infinite error if nothing."""
+        return self.active_chart_of(self.pieces["flank"])
+
+    def active_chart_of(self, piece: EdgePiece) -> Chart:
+        """The same of another form of the flank's piece (without its relief, say)."""
+        whole = self.charts["flank"]
+        if piece is not self.pieces["flank"]:
+            whole = chart(
+                self.surface, piece, self.cone, self.toe, self.heel, self.theta_start, rooted=False
+            )
+        return whole if np.isfinite(whole.error) else above_undercut(self, piece) or whole
 
     @property
     def name(self) -> str:
@@ -216,7 +231,7 @@ class Flank:
         never wraps. NaN where Newton does not arrive.
         """
         distance, height = (np.asarray(v, float).ravel() for v in (distance, height))
-        start = self.charts[piece]
+        start = self.active_chart if piece == "flank" else self.charts[piece]
         x, y = start.coordinates(distance, height)
         x, y = np.clip(x, -1.0, 1.0), np.clip(y, -1.0, 1.0)
         s, theta, angle, left, _ = height_at(

@@ -237,11 +237,15 @@ def loaded_contact(
 
     unloaded, teeth, found = attempt(first)
     for count in more:
-        if not any(at.outcome is Outcome.MORE_PAIRS for case in found for at in case.positions):
+        wanted = any(at.outcome is Outcome.MORE_PAIRS for case in found for at in case.positions)
+        if not wanted or not _complete(found, per_pitch):
             break
         unloaded, teeth, found = attempt(count)
-    complete = len(found[0].positions) > per_pitch
-    return LoadedContact(pair, direction, unloaded, teeth, found, complete)
+    return LoadedContact(pair, direction, unloaded, teeth, found, _complete(found, per_pitch))
+
+
+def _complete(found: tuple[LoadCase, ...], per_pitch: int) -> bool:
+    return len(found[0].positions) > per_pitch
 
 
 def _solved(

@@ -57,7 +57,7 @@ def flank_frame(axes: Axes, flank: Flank) -> None:
     ends, tips, roots = _outline(axes, flank)
     (toe, heel), tip, root = ends, tips.max(), roots.min()
     limit = np.linspace(toe, heel, 60)
-    low = np.asarray(flank.charts["flank"].bounds(limit)[0])
+    low = np.asarray(flank.active_chart.bounds(limit)[0])
     axes.plot(limit, low, "--", color=GREY, linewidth=0.8)
     axes.annotate("fillet limit", (heel, low[-1]), xytext=(-4, 3), textcoords="offset points",
                   ha="right", fontsize=7, color="#5b6270")  # fmt: skip

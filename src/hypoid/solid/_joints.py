@@ -9,11 +9,10 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from hypoid.flank import Flank, Side, ToothGrid
+from hypoid.flank import Flank, FlankPoints, Side, ToothGrid, first_of
 
 Array = np.ndarray[Any, Any]
 NEAR_END = 0.03  # a joint nearer to root or tip than this share of the height is not followed
-LOOKS, AT_ONCE = 3, 48  # narrowings of where an undercut joint lies, and into how many parts
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,12 +74,10 @@ def _undercut(flank: Flank, grid: ToothGrid) -> list[Callable[[Array], Array]]:
     for row in rows.T:
         low, high = profile.height[every, row], profile.height[every, row + 1]
         below = profile.piece[every, row]
-        for _ in range(LOOKS):
-            height = low[:, None] + np.outer(high - low, np.linspace(0.0, 1.0, AT_ONCE + 1))
-            points = flank.at_cone(np.broadcast_to(grid.distance[:, None], height.shape), height)
-            same = points.piece.reshape(height.shape) == below[:, None]
-            same[:, 0], same[:, -1] = True, False
-            first = np.argmin(same, axis=1)  # the first of another piece
-            low, high = height[every, first - 1], height[every, first]
+
+        def above(points: FlankPoints, below: Array = below) -> Array:
+            return points.piece.reshape(len(below), -1) != below[:, None]
+
+        low, high = first_of(flank, grid.distance, low, high, above)
         lines.append(CubicSpline(grid.distance, 0.5 * (low + high)))
     return lines
