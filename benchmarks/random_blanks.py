@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 
 from hypoid.blank import BlankRequest, TypeII, iso_blank
-from hypoid.contact import Sampling, UnloadedContact, unloaded_contact
+from hypoid.contact import Sampling, UnloadedContact, to_wheel, unloaded_contact
 from hypoid.design import (
     EaseOffTarget,
     ExactFaceHobbedSpec,
@@ -147,6 +147,10 @@ def draw(number: int, random: np.random.Generator) -> Draw:
             taper = "uniform"
         if pinion == "exact":
             wheel, method = "generated", 2
+        if pinion == "completing" and wheel == "generated":
+            pinion = (
+                "duplex-helical"  # without motions one setting does not serve both flanks there
+            )
         if pinion in UNTILTED and wheel == "formate" and (hobbed or pinion == "generated"):
             pinion = "tilt"  # a plain roll without tilt is no match for a form-cut wheel
         lean = random.uniform(radians(12.0), radians(22.0))
@@ -227,7 +231,7 @@ def outcome(one: Draw) -> tuple[str, float, float]:
         contact = unloaded_contact(pair, direction, sampling=LOOK)
         quarter, middle = LOOK.positions_per_pitch // 4, len(contact.phi) // 2
         if not any(inside(contact, k) for k in range(middle - quarter, middle + quarter + 1)):
-            words = "; ".join(faults) or "no reason found"
+            words = "; ".join([f"{leading(contact, middle)} leads", *faults])
             return f"{direction}: no contact inside at the middle ({words})", residual, tolerance
     return ("sound" if not faults else f"sound; reported: {faults[0]}"), residual, tolerance
 
@@ -237,6 +241,26 @@ def inside(contact: UnloadedContact, at: int) -> bool:
     leads = contact.leads[at].reshape(LOOK.rows, LOOK.columns)
     best = float(leads[1:-1, 1:-1].max())
     return bool(contact.interior[at]) or best > float(contact.curve[at]) - LEADS
+
+
+def leading(contact: UnloadedContact, at: int) -> str:
+    """The edge nearest to the node that leads, by its member."""
+    node = int(contact.leads[at].argmax())
+    point = contact.nodes.point[:, [node]]
+    seen = []
+    for flank, (x, y, z) in (
+        (contact.pinion_flank, point),
+        (contact.wheel_flank, to_wheel(contact.mount, contact.phi[at], tuple(point))),
+    ):
+        distance, height = flank.cone.cone_distance_height(z, np.hypot(x, y))
+        low = flank.active_chart.bounds(distance)[0]
+        seen += [
+            (float(flank.tip.at(distance)[0] - height[0]), f"the {flank.member}'s tip"),
+            (float(distance[0] - flank.toe), f"the {flank.member}'s toe"),
+            (float(flank.heel - distance[0]), f"the {flank.member}'s heel"),
+            (float(height[0] - low[0]), f"the lower end of the {flank.member}'s flank"),
+        ]
+    return min(seen)[1]
 
 
 def row(number: int) -> list[Any]:

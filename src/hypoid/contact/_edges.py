@@ -30,7 +30,7 @@ def _zoom(
     phi: Batch,
     start: Place,
     window: tuple[Scalar, Scalar],
-) -> Batch:
+) -> Place:
     spread = jnp.linspace(-1.0, 1.0, POINTS)
     dx, dy = (window[k] * g.ravel() for k, g in enumerate(jnp.meshgrid(spread, spread)))
 
@@ -45,7 +45,7 @@ def _zoom(
         better = found > value
         return jnp.where(better, u, x), jnp.where(better, v, y), jnp.where(better, found, value)
 
-    return jax.lax.fori_loop(0, LEVELS, level, start)[2]
+    return jax.lax.fori_loop(0, LEVELS, level, start)
 
 
 def zoom(
@@ -57,14 +57,17 @@ def zoom(
     best: np.ndarray,
     top: np.ndarray,
 ) -> np.ndarray:
-    """Greatest lead (rad) near the best nodes, at pinion angles phi (m,); never below ``top``."""
+    """Places x, y in the pinion's chart and greatest lead, rad, (3, m) near the best nodes, at pinion angles phi (m,).
+
+    Never below ``top``.
+    """
     count = len(phi)
     if not count:
-        return top
+        return np.zeros((3, 0))
     columns, rows = len(nodes.distance), len(nodes.share)
     size = -(-count // PADDING) * PADDING
     angle, node, value = (np.resize(a, size) for a in (phi, best, top))
     x = on_unit(nodes.distance[0], nodes.distance[-1], nodes.distance[node % columns])
     y = 2.0 * nodes.share[node // columns] - 1.0
     window = (2.0 / (columns - 1), 2.0 / (rows - 1))
-    return np.asarray(_zoom(mount, pinion, wheel, angle, (x, y, value), window))[:count]
+    return np.array(_zoom(mount, pinion, wheel, angle, (x, y, value), window))[:, :count]

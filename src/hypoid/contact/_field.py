@@ -127,14 +127,19 @@ def lead_grid(mount: Mounting, wheel: AngleField, phi: Batch, point: Vector) -> 
 lead_each = compiled_fused(lead)  # one pinion angle a point
 
 
+def on_flank(field: AngleField, x: Batch, y: Batch) -> tuple[Batch, Batch]:
+    """(S, H), mm, at x, y in [-1, 1] from toe to heel, and from where the flank begins to its tip."""
+    distance = 0.5 * (field.lowest.toe + field.lowest.heel)
+    distance = distance + 0.5 * (field.lowest.heel - field.lowest.toe) * x
+    low = field.lowest.bounds(distance)[0]
+    return distance, low + 0.5 * (1.0 + y) * (field.tip.at(distance) - low)
+
+
 def lead_on_flank(
     mount: Mounting, pinion: AngleField, wheel: AngleField, phi: Batch, x: Batch, y: Batch
 ) -> Batch:
     """Leads at chart places of the pinion: x, y in [-1, 1] from toe to heel, fillet limit to tip."""
-    distance = 0.5 * (pinion.lowest.toe + pinion.lowest.heel)
-    distance = distance + 0.5 * (pinion.lowest.heel - pinion.lowest.toe) * x
-    low = pinion.lowest.bounds(distance)[0]
-    height = low + 0.5 * (1.0 + y) * (pinion.tip.at(distance) - low)
+    distance, height = on_flank(pinion, x, y)
     z, rho = pinion.cone.axial_radial(distance, height)
     angle = pinion.angle(distance, height)
     return lead(mount, wheel, phi, (rho * jnp.cos(angle), rho * jnp.sin(angle), z))

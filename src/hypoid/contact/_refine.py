@@ -9,7 +9,7 @@ afterwards (notes of 2022, pitfalls).
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import jax
 import jax.numpy as jnp
@@ -150,6 +150,13 @@ class ContactPoints:
     extreme: np.ndarray  # bool: the lead is greatest here, the surfaces do not cut each other
     wheel_z: np.ndarray
     wheel_rho: np.ndarray
+
+    def changed(self, at: np.ndarray, other: ContactPoints, which: np.ndarray) -> ContactPoints:
+        """These points with those `which` (k,) of others in the places `at`."""
+        made = {f.name: getattr(self, f.name).copy() for f in fields(self)}
+        for name, values in made.items():
+            values[at] = getattr(other, name)[which]
+        return ContactPoints(**made)
 
     @property
     def met(self) -> np.ndarray:

@@ -18,7 +18,7 @@ from hypoid.geometry import horner
 from hypoid.pair import Direction, GearPair
 
 from ._edges import zoom
-from ._field import FlankNodes, angle_field, flank_nodes, lead_grid
+from ._field import FlankNodes, angle_field, flank_nodes, lead_grid, on_flank
 from ._handover import handovers, peak_to_peak
 from ._mounting import Misalignment, Mounting, mounting, to_wheel
 from ._refine import ContactPoints, refine
@@ -26,6 +26,7 @@ from ._refine import ContactPoints, refine
 EDGE_WINS = 1e-8  # rad: an edge counts as contact where it leads the flanks by more (2 milliarcsec)
 GRID_BIAS = 5e-5  # rad: how far a grid may misplace an edge's lead (methods: 5 arcsec), twice
 GAP = 1e-3  # pitches: contacts of the flanks themselves that leave out more leave it to an edge
+INSIDE = 1.0 - 1e-6  # of a chart: nearer its border a place is on an edge
 TOUCHING = 1e-9  # rad: pairs within this of the leader touch, too
 
 
@@ -270,7 +271,7 @@ def unloaded_contact(
     leads = np.asarray(lead_grid(mount, field, phi, tuple(nodes.point)))
     best = leads.argmax(axis=1)
     top = leads[np.arange(len(phi)), best]
-    points = _refined(mount, pinion, wheel, nodes, phi, best)
+    points = _refined(mount, pinion, wheel, phi, nodes.s[best], nodes.theta[best])
     interior = points.met & _within(pinion, wheel, points) & (points.lead > top - 1e-7)
     curve = np.where(interior, points.lead, top)
     edges = np.flatnonzero(np.isfinite(top) & ~interior)
@@ -278,9 +279,17 @@ def unloaded_contact(
         n, phase = how.positions_per_pitch, np.arange(len(phi)) % how.positions_per_pitch
         leader = np.array([curve[phase == k].max() for k in range(n)])
         edges = edges[top[edges] > leader[phase[edges]] - GRID_BIAS]
-    curve[edges] = zoom(
-        mount, angle_field(pinion), field, nodes, phi[edges], best[edges], top[edges]
-    )
+    own = angle_field(pinion)
+    x, y, curve[edges] = zoom(mount, own, field, nodes, phi[edges], best[edges], top[edges])
+    # within the outline after all: on a ridge, say, which Newton has left from the node
+    place = np.maximum(np.abs(x), np.abs(y)) < INSIDE
+    missed = edges[place]
+    if len(missed):
+        s, theta, _ = pinion.parameters(*on_flank(own, x[place], y[place]))
+        again = _refined(mount, pinion, wheel, phi[missed], s, theta)
+        met = again.met & _within(pinion, wheel, again) & (again.lead > curve[missed] - 1e-7)
+        points = points.changed(missed[met], again, met)
+        interior[missed[met]], curve[missed[met]] = True, again.lead[met]
     return UnloadedContact(
         pair, direction, error, how, mount, nodes, phi, leads, curve, interior, points
     )
@@ -290,11 +299,13 @@ def _refined(
     mount: Mounting,
     pinion: Flank,
     wheel: Flank,
-    nodes: FlankNodes,
     phi: np.ndarray,
-    best: np.ndarray,
+    s: np.ndarray,
+    theta: np.ndarray,
 ) -> ContactPoints:
-    x, y, z = (np.asarray(c) for c in to_wheel(mount, phi, tuple(nodes.point[:, best])))
+    """Refined from the pinion's points at edge parameters s (mm) and turns theta (rad)."""
+    point = (pinion.at_cutter(s, theta)[0] * pinion.hand).T
+    x, y, z = (np.asarray(c) for c in to_wheel(mount, phi, tuple(point)))
     chart = wheel.active_chart
     at = chart.coordinates(*wheel.cone.cone_distance_height(z, np.hypot(x, y)))
     u, v = (np.clip(np.asarray(c), -1.0, 1.0) for c in at)
@@ -303,8 +314,8 @@ def _refined(
         (pinion.surface, wheel.surface),
         (pinion.pieces["flank"], wheel.pieces["flank"]),
         phi,
-        nodes.s[best],
-        nodes.theta[best],
+        s,
+        theta,
         np.asarray(horner(chart.s, u, v)),
         np.asarray(horner(chart.theta, u, v)),
     )

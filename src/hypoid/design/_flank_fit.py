@@ -72,7 +72,7 @@ def flank_fits(task: PinionTask, stage: Stage) -> dict[Side, FlankFit]:
     for model, vector, look in zip(stage.models, stage.vectors, joint.looks, strict=True):
         count = model.count
         residual, ease_off = (np.full(len(model.there), np.nan) for _ in range(2))
-        residual[model.there] = look.residual[:count] * UM
+        residual[model.there] = model.off(look)
         ease_off[model.there] = look.ease_off[model.there]
         found[model.side] = FlankFit(
             side=model.side,

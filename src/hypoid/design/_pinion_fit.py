@@ -20,13 +20,14 @@ from ._motion import Motion, motion_of
 from ._pinion_methods import APART, BASE, HEAD
 from ._pinion_model import CORNER_SPREAD, ROOT_SPREAD, pinion_model, target_places
 from ._pinion_start import conjugate_places, conjugate_start, plain_places, plain_start
-from ._pinion_task import PinionTask, Stage, goals, in_root_plane, led, run
+from ._pinion_task import FEWEST, PinionTask, Stage, goals, in_root_plane, led, run
 from ._settings_model import INDEX
 from ._target import MotionTarget
 
 CORRECTIONS = 4  # of a target's transmission error
 MET = 0.005  # of the asked transmission error
-FEWEST = 20  # points of the conjugate that a fit needs
+EVENINGS = 10  # runs that lead from least squares towards the least greatest residual
+FLOOR = 0.05  # of the greatest residual, that every place counts with at least
 
 
 def fit_pinion(task: PinionTask) -> dict[Side, FlankFit]:
@@ -35,12 +36,12 @@ def fit_pinion(task: PinionTask) -> dict[Side, FlankFit]:
         if any(c.there.sum() < FEWEST for c in task.conjugates.values()):
             return {}
         best = _best(task, [lambda: _from_plain(task, SIDES), lambda: _from_between(task)])
-        return {} if best is None else flank_fits(task, _moved(task, best))
+        return {} if best is None else flank_fits(task, _evened(task, _moved(task, best)))
     found: dict[Side, FlankFit] = {}
     for side in SIDES:
         best = _alone(task, side)
         if best is not None:
-            found |= flank_fits(task, _moved(task, best))
+            found |= flank_fits(task, _evened(task, _moved(task, best)))
     return found
 
 
@@ -65,6 +66,35 @@ def _best(task: PinionTask, starts: Sequence[Callable[[], Stage | None]]) -> Sta
         if best is not None and best.largest <= task.request.tolerance:
             break
     return best
+
+
+def _evened(task: PinionTask, stage: Stage) -> Stage:
+    """The stage, or one nearer to the least greatest residual, where least squares keep more than the tolerance.
+
+    Rows are weighted by what their places keep, over and over [C. L. Lawson, 1961].
+    """
+    best = stage
+    for _ in range(EVENINGS):
+        if best.largest <= task.request.tolerance or stage.fit is None:
+            break
+        sizes = [np.abs(m.off(k)) for m, k in zip(stage.models, stage.fit.looks, strict=True)]
+        greatest = max(float(size.max()) for size in sizes)
+        models = []
+        for model, size in zip(stage.models, sizes, strict=True):
+            weight = model.weight.copy()
+            weight[model.there] *= np.sqrt(size / greatest + FLOOR)
+            weight /= np.sqrt(np.mean(weight[model.there] ** 2))
+            models.append(replace(model, weight=weight))
+        found = run(task, replace(stage, models=tuple(models), fit=None), task.free, _spread(task))
+        if found is None:
+            break
+        stage = found
+        best = min(best, stage, key=lambda s: s.largest)
+    if all((m.weight == 1.0).all() for m in best.models):
+        return best
+    plain = tuple(replace(m, weight=np.ones(len(m.weight))) for m in best.models)
+    seen = run(task, replace(best, models=plain, fit=None), task.free, _spread(task), steps=0)
+    return best if seen is None else seen
 
 
 def _moved(task: PinionTask, stage: Stage) -> Stage:

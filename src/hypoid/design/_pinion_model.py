@@ -43,6 +43,7 @@ class Seen:
     ease_off: Array  # (n,) mm
     turn: float  # rad, from the conjugate to the flank at the middle, about the axis
     turn_slopes: Array  # its derivatives by every entry
+    folded: Array  # (n,) bool: places that came near undercut, or beyond it
 
 
 @dataclass(frozen=True)
@@ -54,6 +55,7 @@ class PinionModel:
     conjugate: Conjugate
     wanted: Array  # (n,) mm, the target ease-off
     there: Array  # (n,) bool: points that count
+    weight: Array  # (n,) of their rows
     root_distance: Array  # S where the root is looked at, mm
     root_height: Array  # H wanted there
     root_spread: float  # how far it may stray, mm
@@ -72,13 +74,18 @@ class PinionModel:
         """Rows of the ease-off; those of the root follow."""
         return int(self.there.sum())
 
+    def off(self, look: Seen) -> Array:
+        """What the ease-off keeps from its target, mm, where points count."""
+        wanted = self.wanted - self.wanted[self.conjugate.middle]
+        return (look.ease_off - wanted)[self.there]
+
     def look(self, vector: Array, memory: tuple[Array, ...]) -> Seen | None:
         """Residuals and Jacobian at a vector; None where the flank or its root cannot be found."""
         c, side = self.conjugate, self.blade_side
         z, rho = (np.where(self.there, v, v[c.middle]) for v in (c.z, c.rho))
         start = (np.where(self.there, v, v[c.middle]) for v in memory[:3])
         got = flank_at(vector, self.outward, side, self.reference, z, rho, *start)
-        s, theta, phi, angle, left, lever = got[:6]
+        s, theta, phi, angle, left, lever, sense = got[:7]
         if not np.all(left[self.there] < LEFT):
             return None
         root = root_at(vector, self.cone, side, self.root_distance, *memory[3:])
@@ -91,16 +98,17 @@ class PinionModel:
         wanted = self.wanted - self.wanted[c.middle]
         short = np.where(self.there, np.maximum(self.least_edge - s, 0.0), 0.0) / EDGE_SPREAD
         by_edge = np.where(short > 0.0, -got[half:] / EDGE_SPREAD, 0.0)
+        weight = self.weight[self.there] / UM
         residual = np.concatenate(
             [
-                (ease_off - wanted)[self.there] / UM,
+                weight * (ease_off - wanted)[self.there],
                 (root[2] - self.root_height) / self.root_spread,
                 short[self.there],
             ]
         )
         jacobian = np.concatenate(
             [
-                slopes[:, self.there].T / UM,
+                weight[:, None] * slopes[:, self.there].T,
                 (root[4:] / self.root_spread).T,
                 by_edge[:, self.there].T,
             ]
@@ -109,7 +117,8 @@ class PinionModel:
             return None
         memory = (s, theta, phi, root[0], root[1])
         turn, turn_slopes = float(off[c.middle]), turned[:, c.middle]
-        return Seen(residual, jacobian, memory, ease_off, turn, turn_slopes)
+        folded = self.there & (sense / sense[c.middle] < FOLDING)
+        return Seen(residual, jacobian, memory, ease_off, turn, turn_slopes, folded)
 
     def asked(self, target: Target, blank: PairBlank) -> PinionModel:
         """The same flank with another target."""
@@ -175,6 +184,7 @@ def pinion_model(
         c,
         wanted,
         there,
+        np.ones(len(there)),
         distance,
         height,
         root_spread,

@@ -27,7 +27,7 @@ from ._pinion_methods import (
     entries_of,
     step_limits,
 )
-from ._pinion_model import ROOT_PLACES, UM, PinionModel, Seen
+from ._pinion_model import ROOT_PLACES, PinionModel, Seen
 from ._settings_model import ANGLES, INDEX
 from ._target import Target
 
@@ -35,6 +35,8 @@ Array = np.ndarray[Any, Any]
 LEADING = math.radians(0.02)  # how firmly an angle is led to a value
 LED = 0.02  # of a step limit: the same for what is no angle
 BACKLASH = 0.002  # mm, how far a slot's backlash may stray
+FEWEST = 20  # points of the conjugate that a fit needs
+UNFOLDINGS = 4  # runs of a stage, each without the places that folded in the last
 ROOT_SPREAD = 0.02  # mm, of the mean of a slot's two corners; each may stray further
 JOINT_BLADE = math.radians(2.0)  # blades of one cutter depart further from their pressure angles
 CUTTER = 0.1  # of the cutter's radius, that a spread-blade pinion cutter may stray
@@ -123,7 +125,7 @@ class Stage:
         if self.fit is None:
             return math.inf
         looks = zip(self.fit.looks, self.models, strict=True)
-        return max(UM * float(np.abs(look.residual[: m.count]).max()) for look, m in looks)
+        return max(float(np.abs(m.off(look)).max()) for look, m in looks)
 
     def put(self, values: Mapping[str, float]) -> Stage:
         """The same with entries of every flank at these values."""
@@ -144,18 +146,30 @@ def run(
     bounded: bool = True,
     steps: int = 60,
 ) -> Stage | None:
-    """One stage: these entries free, with these wishes beside the blades'; None where none can be looked at."""
+    """One stage: these entries free, with these wishes beside the blades'; None where none can be looked at.
+
+    Places that fold on the way are of another sheet from there on: they are left out, and the stage goes on.
+    """
     joint = len(stage.models) > 1
     wishes = {**_blade_wishes(task, stage), **more}
-    tie = _slot_tie(task, stage) if joint else None
-    looks: list[FlankModel] = [model.look for model in stage.models]
-    found = joint_fit(
-        looks, stage.vectors, stage.memories, task.entries(names, joint, bounded), INDEX,
-        wishes=wishes, tie=tie, steps=steps,
-    )  # fmt: skip
-    if found is None:
-        return None
-    return Stage(stage.models, found.vectors, found.fit.look.memory, found)
+    for _ in range(UNFOLDINGS):
+        tie = _slot_tie(task, stage) if joint else None
+        looks: list[FlankModel] = [model.look for model in stage.models]
+        found = joint_fit(
+            looks, stage.vectors, stage.memories, task.entries(names, joint, bounded), INDEX,
+            wishes=wishes, tie=tie, steps=steps,
+        )  # fmt: skip
+        if found is None:
+            return None
+        stage = Stage(stage.models, found.vectors, found.fit.look.memory, found)
+        if not any(look.folded.any() for look in found.looks):
+            return stage
+        pairs = zip(stage.models, found.looks, strict=True)
+        models = tuple(replace(m, there=m.there & ~look.folded) for m, look in pairs)
+        if any(model.count < FEWEST for model in models):
+            return stage
+        stage = replace(stage, models=models, fit=None)
+    return None
 
 
 def _blade_wishes(task: PinionTask, stage: Stage) -> dict[str, Wish]:

@@ -220,7 +220,8 @@ def _candidates(
     for column, curves in enumerate(sections(flank, columns)):
         places = np.flatnonzero(near[column])
         own = [c for c in curves if c.piece == "flank" and not c.other] or curves
-        middle = np.nanmean(np.concatenate([c.angle for c in own])) if own else 0.0
+        angles = np.concatenate([[], *(c.angle[np.isfinite(c.angle)] for c in own)])
+        middle = angles.mean() if len(angles) else 0.0
         reach = (
             DEPTHS
             * depth
