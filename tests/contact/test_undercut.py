@@ -61,7 +61,9 @@ def test_tsay_1993_as_printed_leads_where_the_swept_flank_does(as_cut: AsCut) ->
     """The greatest lead over points as cut, position by position, is the motion curve."""
     c = as_cut.contact
     every = np.flatnonzero(np.isfinite(c.curve))[::10]
-    leads = np.asarray(lead_grid(c.mount, angle_field(c.wheel_flank), c.phi[every], tuple(as_cut.point)))
+    leads = np.asarray(
+        lead_grid(c.mount, angle_field(c.wheel_flank), c.phi[every], tuple(as_cut.point))
+    )
     greatest = leads.max(axis=1)
     assert np.isfinite(greatest).all()
     off = c.curve[every] - greatest

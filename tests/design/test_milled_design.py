@@ -22,9 +22,12 @@ from hypoid.design import (
     design_milled,
 )
 from hypoid.design._conjugate import conjugate
+from hypoid.design._milled_design import _pinion_edge
 from hypoid.design._milled_wheel import milled_wheel, pitch_cone
+from hypoid.design._pinion_fit import _alone, _evened
 from hypoid.design._pinion_model import pinion_model
 from hypoid.design._pinion_start import conjugate_places, conjugate_start
+from hypoid.design._pinion_task import pinion_task
 from hypoid.design._settings_model import NAMES, flank_at
 from hypoid.flank import flank_angles
 from hypoid.geometry import DesignError
@@ -108,7 +111,8 @@ def test_the_conjugate_start_transmits_uniformly() -> None:
     made, _ = designed("formate", "tilt")
     from hypoid.design._designed_sheet import sheet_dials
     from hypoid.design._flank_fit import plain_settings
-    from hypoid.design._settings_model import INDEX
+    from hypoid.design._pinion_task import pinion_task
+from hypoid.design._settings_model import INDEX
 
     start = conjugate_start(made.wheel, made.blank, "concave")
     apex = made.blank.pinion.pitch_apex_beyond_crossing_point
@@ -325,3 +329,24 @@ def test_nonsense_targets_are_told_with_their_keys() -> None:
         "contact.coast.profile_crowning",
         "contact.tolerance",
     ]
+
+
+def test_a_flank_above_its_tolerance_is_led_towards_the_least_greatest_residual() -> None:
+    """Plain roll beside a form-cut wheel: squares grow, the greatest residual falls."""
+    request = replace(REQUEST, wheel_method="formate", pinion_method="generated", tolerance=1e-3)
+    blank = iso_blank(request.blank)
+    task = pinion_task(request, blank, milled_wheel(request, blank))
+    for side in SIDES:
+        squares = _alone(task, side)
+        assert squares is not None
+        evened = _evened(task, squares)
+        assert evened.largest < 0.9 * squares.largest
+        assert evened.cost >= squares.cost - 1e-6 * squares.cost
+        assert all((model.weight == 1.0).all() for model in evened.models)
+
+
+def test_no_blade_is_sharper_than_a_twentieth_of_the_module() -> None:
+    made, _ = designed("formate", "tilt")
+    fits = {side: replace(fit, least_edge=0.0) for side, fit in made.fits.items()}
+    radius = _pinion_edge(made.blank, made.wheel, fits)
+    assert radius == pytest.approx(0.05 * made.blank.mean_normal_module, rel=1e-12)
