@@ -111,8 +111,7 @@ def test_the_conjugate_start_transmits_uniformly() -> None:
     made, _ = designed("formate", "tilt")
     from hypoid.design._designed_sheet import sheet_dials
     from hypoid.design._flank_fit import plain_settings
-    from hypoid.design._pinion_task import pinion_task
-from hypoid.design._settings_model import INDEX
+    from hypoid.design._settings_model import INDEX
 
     start = conjugate_start(made.wheel, made.blank, "concave")
     apex = made.blank.pinion.pitch_apex_beyond_crossing_point
@@ -347,6 +346,6 @@ def test_a_flank_above_its_tolerance_is_led_towards_the_least_greatest_residual(
 
 def test_no_blade_is_sharper_than_a_twentieth_of_the_module() -> None:
     made, _ = designed("formate", "tilt")
-    fits = {side: replace(fit, least_edge=0.0) for side, fit in made.fits.items()}
+    fits: dict[Any, Any] = {s: replace(fit, least_edge=0.0) for s, fit in made.fits.items()}
     radius = _pinion_edge(made.blank, made.wheel, fits)
     assert radius == pytest.approx(0.05 * made.blank.mean_normal_module, rel=1e-12)
