@@ -1,10 +1,12 @@
-"""The papers' cases under load: the tables of docs/validation/under-load.md.
+"""The papers' cases under load: the tables of docs/validation/under-load.md, and of the fillets' elements.
 
     python benchmarks/papers_under_load.py 2022 docs/validation/relief-under-load.csv
     python benchmarks/papers_under_load.py 2005 docs/validation/torques.csv
+    python benchmarks/papers_under_load.py fillets docs/validation/root-stress.csv
 
 2022: section 6.3 and Fig. 13, 110 N m, five tip reliefs, both readings of where their height counts
-from. 2005: section 4.2.2, Table 4, seven torques of the 15 x 44 pair.
+from. 2005: section 4.2.2, Table 4, seven torques of the 15 x 44 pair. Fillets: root stress of the 2022
+pair with relief at 110 N m, four positions a pitch, by elements over the fillet.
 """
 
 from __future__ import annotations
@@ -76,9 +78,31 @@ def torques(mesh: str) -> list[dict[str, Any]]:
     ]
 
 
+def fillets(mesh: str) -> list[dict[str, Any]]:
+    """Greatest root stress against elements over the fillet."""
+    pair = build(read_spec(EXAMPLES / "gonzalez-fuentes-2022-relief.toml"))
+    usual = MESHES[mesh]
+    meshes = {"coarse": MESHES["coarse"], "": replace(usual, fillet=4), mesh: usual}
+    made: list[dict[str, Any]] = []
+    for name, elements in (*meshes.items(), ("", replace(usual, fillet=10))):
+        teeth = pair_compliance(pair, "drive", STEEL, elements)
+        loaded = loaded_contact(pair, "drive", [110.0 * NM], *teeth, positions=9)
+        stress = [root_stress(loaded, loaded.cases[0], m) for m in ("pinion", "wheel")]
+        made.append(
+            {
+                "over the fillet": elements.fillet,
+                "mesh": name,
+                "pinion [MPa]": round(stress[0].max_principal),
+                "wheel [MPa]": round(stress[1].max_principal),
+                "greatest pressure [MPa]": round(loaded.cases[0].max_pressure),
+            }
+        )
+    return made
+
+
 def main() -> None:
     which, path, mesh = sys.argv[1], Path(sys.argv[2]), (*sys.argv[3:], "usual")[0]
-    rows = {"2022": reliefs, "2005": torques}[which](mesh)
+    rows = {"2022": reliefs, "2005": torques, "fillets": fillets}[which](mesh)
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, list(rows[0]))
         writer.writeheader()
