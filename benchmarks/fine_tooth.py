@@ -35,6 +35,7 @@ from overlaid import (  # pyright: ignore[reportMissingImports]
 from pinion_tooth import (  # pyright: ignore[reportMissingImports]
     COARSE,
     FINE,
+    RIDGE,
     Fineness,
     by_elements,
     by_method,
@@ -81,13 +82,14 @@ def main() -> None:
     spans = {t: reach(met, teeth["here"], 1e3 * t) for t in TORQUES}
     widest = max(spans.values(), key=np.ptp)
     references = {
-        "coarse_reference": reference(pair, met, widest, COARSE),
         "reference": reference(pair, met, widest, FINE),
+        "coarse_reference": reference(pair, met, widest, COARSE),
     }
     made: list[dict[str, Any]] = []
     for torque, span in spans.items():
         ends = np.linspace(span[0, 0], span[1, 0], PARTS + 1)
-        found = {n: by_elements(r, 1e3 * torque, ends) for n, r in references.items()}
+        found = {"here": by_method(met, teeth["here"], 1e3 * torque, ends)}
+        found |= {n: by_elements(r, 1e3 * torque, ends) for n, r in references.items()}
         found |= {n: by_method(met, t, 1e3 * torque, ends) for n, t in teeth.items()}
         before = patches.COLUMNS, patches.ROWS
         patches.COLUMNS = positions.COLUMNS = 2 * before[0]
@@ -95,13 +97,13 @@ def main() -> None:
         found["here_cells_x4"] = by_method(met, teeth["here"], 1e3 * torque, ends)
         patches.COLUMNS = positions.COLUMNS = before[0]
         patches.ROWS = positions.ROWS = before[1]
-        names = ["rotation [urad]", "greatest pressure [MPa]"]
+        names = ["rotation [urad]", "greatest pressure [MPa]", f"over {RIDGE:g} mm [MPa]"]
         names += [f"{a:.2f} to {b:.2f} mm [N/mm]" for a, b in pairwise(ends)]
-        values = {n: [1e6 * r.rotation, r.peak, *r.line] for n, r in found.items()}
+        values = {n: [1e6 * r.rotation, r.peak, r.ridge, *r.line] for n, r in found.items()}
         for k, name in enumerate(names):
             row: dict[str, Any] = {"torque_Nm": f"{torque:g}", "what": name}
-            row |= {n: f"{v[k]:.1f}" for n, v in values.items()}
-            row["here_off_%"] = f"{100.0 * (values['here'][k] / values['reference'][k] - 1.0):+.1f}"
+            off = 100.0 * (values["here"][k] / values["reference"][k] - 1.0)
+            row |= {"here_off_%": f"{off:+.1f}"} | {n: f"{v[k]:.1f}" for n, v in values.items()}
             made.append(row)
             print(row, flush=True)
     with Path(sys.argv[1]).open("w", newline="", encoding="utf-8") as file:

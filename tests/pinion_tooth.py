@@ -22,6 +22,7 @@ from hypoid.pair import GearPair
 Array = np.ndarray[Any, Any]
 STEP = 2  # position beyond pinion angle 0, 40 a pitch: the contact stands clear of both tips
 BESIDE, ZONE = 0.3, 2.4  # mm of S: middle of the contact, and half of where sections are close
+RIDGE = 0.9  # mm: over less the reference's pressure swings, where the tooth's own elements meet
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,8 @@ class Answer:
     """What is compared: line loads are means over the parts between `ends`."""
 
     rotation: float  # rad
-    peak: float  # MPa
+    peak: float  # MPa, at one node or cell
+    ridge: float  # MPa, the greatest across the contact, over `RIDGE` of its length
     line: Array  # N/mm
 
 
@@ -132,7 +134,17 @@ def by_method(met: Meeting, teeth: Teeth, torque: float, ends: Array) -> Answer:
     total = np.append(0.0, np.cumsum(columns.sum(axis=1)))
     line = np.diff(np.interp(ends, sides, total)) / np.diff(ends)
     peak = greatest(p, force / p.area, np.ones(p.count, dtype=bool))
-    return Answer(found.solution.rotation, peak, line)
+    pressure = np.zeros(p.on.shape)
+    pressure[p.on] = force / p.area
+    ridge = _ridge(0.5 * (sides[1:] + sides[:-1]), pressure.max(axis=1))
+    return Answer(found.solution.rotation, peak, ridge, line)
+
+
+def _ridge(along: Array, tops: Array) -> float:
+    """Greatest mean of the pressures `tops` at places `along`, mm, over `RIDGE`."""
+    x = np.linspace(along[0], along[-1], 2001)
+    count = max(1, round(RIDGE / (x[1] - x[0])))
+    return float(np.convolve(np.interp(x, along, tops), np.full(count, 1.0 / count), "valid").max())
 
 
 def by_elements(fine: Overlaid, torque: float, ends: Array) -> Answer:
@@ -144,4 +156,6 @@ def by_elements(fine: Overlaid, torque: float, ends: Array) -> Answer:
     x = np.linspace(ends[0], ends[-1], count * (len(ends) - 1) + 1)
     y = np.interp(x, rows, line)
     means = (0.5 * (y[1:] + y[:-1])).reshape(-1, count).mean(axis=1)
-    return Answer(found.rotation, float((found.force / fine.area).max()), means)
+    pressure = found.force / fine.area
+    tops = np.array([pressure[fine.a == a].max() for a in rows])
+    return Answer(found.rotation, float(tops.max()), _ridge(rows, tops), means)
