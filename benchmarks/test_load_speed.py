@@ -15,6 +15,7 @@ import pytest
 import hypoid
 from hypoid.contact import Misalignment
 from hypoid.load import MESHES, STEEL, ToothCompliance, loaded_contact, tooth_compliance
+from hypoid.load._setup import elements_of
 from hypoid.pair import GearPair
 
 EXAMPLE = Path(__file__).parent.parent / "examples" / "gonzalez-fuentes-2022-relief.toml"
@@ -34,7 +35,9 @@ def teeth(pair: GearPair, tmp_path_factory: pytest.TempPathFactory) -> tuple[Too
 def both(pair: GearPair, folder: Path) -> tuple[ToothCompliance, ...]:
     flanks = zip((pair.pinion, pair.wheel), pair.mates("drive"), strict=True)
     return tuple(
-        tooth_compliance(member, flank.side, STEEL, MESHES["usual"], cache=folder)
+        tooth_compliance(
+            member, flank.side, STEEL, elements_of(member, MESHES["usual"]), cache=folder
+        )
         for member, flank in flanks
     )
 
