@@ -21,7 +21,7 @@ from ._active_set import Outcome
 from ._bearings import Bearings, bearings_of, moved_mounting, wrenches
 from ._cells import Teeth
 from ._compliance import ToothCompliance
-from ._patch import EDGES, Patch, greatest, meeting
+from ._patch import EDGES, Patch, greatest, meeting, nearest_edge, on_arcs
 from ._position import EDGE, Guess, PositionContact, position_contact
 
 Array = np.ndarray[Any, Any]
@@ -39,8 +39,9 @@ class PairLoad:
     share: float  # of the torque
     force: float  # N, normal
     max_pressure: (
-        float  # MPa, more than 0.3 mm from tip, toe, heel and fillet limit of both members
+        float  # MPa, more than 0.3 mm from sharp tip, toe, heel and fillet limit of both members
     )
+    tip_pressure: float  # MPa, the greatest of that on rounded tips
     edge_pressure: float  # MPa, nearer: moves with the cells
     edge_force: float  # N, on these cells
     edge: str  # the edge beside the greatest of that, "wheel heel", or none
@@ -104,6 +105,11 @@ class LoadedPosition:
         return max((p.max_pressure for p in self.pairs), default=0.0)
 
     @property
+    def tip_pressure(self) -> float:
+        """Greatest pressure on rounded tips, MPa, which `max_pressure` counts."""
+        return max((p.tip_pressure for p in self.pairs), default=0.0)
+
+    @property
     def edge_contact(self) -> bool:
         """Whether the pressure is greatest at a tip, at toe or heel, or where a fillet begins."""
         edge = max((p.edge_pressure for p in self.pairs), default=0.0)
@@ -144,6 +150,11 @@ class LoadCase:
     def max_pressure(self) -> float:
         """Greatest pressure, MPa, away from edges."""
         return max(p.max_pressure for p in self.positions)
+
+    @property
+    def tip_pressure(self) -> float:
+        """Greatest pressure on rounded tips, MPa, which `max_pressure` counts."""
+        return max(p.tip_pressure for p in self.positions)
 
     @property
     def edge_contact(self) -> bool:
@@ -343,16 +354,18 @@ def _spline_range(values: Array) -> float:
 
 def _pair_load(p: Patch, force: Array, torque: float, teeth: Teeth) -> PairLoad:
     pressure = force / p.area
-    inner = p.edge > EDGE
+    apart, name = nearest_edge(p, force)
+    inner = apart > EDGE
     peak, sharp = int(pressure.argmax()), int(np.where(inner, 0.0, pressure).argmax())
     return PairLoad(
         pair=p.meeting.pair,
         share=float(p.pinion_lever @ force) / torque,
         force=float(force.sum()),
         max_pressure=greatest(p, pressure, inner),
+        tip_pressure=float(pressure[inner & on_arcs(p)].max(initial=0.0)),
         edge_pressure=float(pressure[~inner].max(initial=0.0)),
         edge_force=float(force[~inner].sum()),
-        edge=EDGES[p.edge_name[sharp]] if not inner[sharp] and force[sharp] > 0.0 else "",
+        edge=EDGES[name[sharp]] if not inner[sharp] and force[sharp] > 0.0 else "",
         place=(float(p.pinion_place[0][peak]), float(p.pinion_place[1][peak])),
         distance=p.pinion_place[0],
         height=p.pinion_place[1],
