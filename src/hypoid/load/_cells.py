@@ -51,7 +51,7 @@ class Cells:
 
     @cached_property
     def half_space(self) -> Array:
-        """Displacement (n, n), mm/N, of half-spaces with each cell's images beyond both tips."""
+        """Displacement (n, n), mm/N, of half-spaces with each cell's images beyond tips and ends."""
         p = self.patch
         whole, on, (columns, rows) = p.whole, p.on.ravel(), p.on.shape
         x, y = p.plane[:whole].T
@@ -60,12 +60,13 @@ class Cells:
         rest = np.zeros((p.count, len(p.cut)))
         if len(p.cut):
             rest = unlike(p.plane, p.plane, p.corners, p.flat, whole) / self.teeth.plane_modulus
-        for member, tip in zip((self.teeth.pinion, self.teeth.wheel), p.tips, strict=True):
+        for member, lines in zip((self.teeth.pinion, self.teeth.wheel), p.lines, strict=True):
             weight = IMAGE / member.made_of.plane_modulus
-            grid += weight * mirrored_grid(x, y, tip, *p.size)
-            if len(p.cut):
-                eye = mirrored(p.plane, tip)
-                rest += weight * unlike(eye, p.plane, p.corners, p.flat, whole)
+            for line in lines:
+                grid += weight * mirrored_grid(x, y, line, *p.size)
+                if len(p.cut):
+                    eye = mirrored(p.plane, line)
+                    rest += weight * unlike(eye, p.plane, p.corners, p.flat, whole)
         cells[:whole, :whole] = grid / (p.size[0] * p.size[1])
         cells[:, whole:] = rest
         cells[whole:, :whole] = rest[:whole].T

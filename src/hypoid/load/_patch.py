@@ -142,12 +142,16 @@ class Surface:
         return np.where(held, gap, np.inf)
 
 
-def _tip_lines(surface: Surface, flanks: Any, plane: Array) -> tuple[Array, Array]:
-    """Both tips' sharp edges as straight lines of the tangent plane (see `Patch.tips`), from cells (n, 2) in it."""
+def _edge_lines(surface: Surface, flanks: Any, plane: Array) -> tuple[Array, Array]:
+    """Both members' sharp edges as straight lines of the tangent plane (see `Patch.lines`), from cells (n, 2) in it."""
     terms = np.column_stack([np.ones(len(plane)), plane])
     places = (surface.pinion_place, surface.wheel_place)
     first, second = (
-        np.linalg.lstsq(terms, flank.tip.at(s) - h, rcond=None)[0]
+        np.linalg.lstsq(
+            terms,
+            np.stack([flank.tip.at(s) - h, s - flank.toe, flank.heel - s], axis=1),
+            rcond=None,
+        )[0].T
         for flank, (s, h) in zip(flanks, places, strict=True)
     )
     return first, second
@@ -244,9 +248,8 @@ class Patch:
     pinion_place: tuple[Array, Array]  # (S, H), (n,) each
     wheel_place: tuple[Array, Array]
     plane: Array  # (n, 2) mm, along and across
-    tips: tuple[
-        Array, Array
-    ]  # pinion's and wheel's tip, straight in the plane: c0 + c1 along + c2 across = 0
+    lines: tuple[Array, Array]  # pinion's and wheel's tip, toe and heel, straight in the plane:
+    # (3, 3) rows c0, c1, c2 with c0 + c1 along + c2 across = 0, positive on the flank
     arcs: tuple[Arc | None, Arc | None]  # pinion's and wheel's, where rounded
     edges: Array  # (n, EDGES) mm to each of them; rounded tips are none
 
@@ -298,11 +301,11 @@ def patch(met: Meeting, window: Window) -> Patch:
     plane = np.stack(np.meshgrid(a, b, indexing="ij"), axis=-1).reshape(-1, 2)
     surface, gap, on = _faces(met, plane)
     flanks = (met.contact.pinion_flank, met.contact.wheel_flank)
-    tips = _tip_lines(surface.cut(on), flanks, plane[on])
+    lines = _edge_lines(surface.cut(on), flanks, plane[on])
     pair = met.contact.pair
     radii = (pair.pinion.tip_rounding, pair.wheel.tip_rounding)
     arcs: list[Arc | None] = [None, None]
-    for k, (line, radius) in enumerate(zip(tips, radii, strict=True)):
+    for k, ((line, *_), radius) in enumerate(zip(lines, radii, strict=True)):
         if radius > 0.0 and on.any():
             unit = line / np.hypot(*line[1:])
             there = np.flatnonzero(on)[[np.abs(unit[0] + plane[on] @ unit[1:]).argmin()]]
@@ -316,7 +319,7 @@ def patch(met: Meeting, window: Window) -> Patch:
         size=(float(size[0]), float(size[1])),
         on=on.reshape(COLUMNS, ROWS),
         cut=np.zeros((0, CORNERS, 2)),
-        tips=tips,
+        lines=lines,
         arcs=(arcs[0], arcs[1]),
         **_cells(surface.cut(on), plane[on], np.full(on.sum(), size[0] * size[1]), gap[on], arcs),
     )

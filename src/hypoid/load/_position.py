@@ -57,6 +57,16 @@ class PositionContact:
         return parts(self.patches)
 
     @property
+    def bounded_by_edges(self) -> float:
+        """Share of the contacts' outlines where flanks end rather than part, by the pairs' forces."""
+        shares = [
+            _bounded_by_edges(p, self.solution.force[part])
+            for p, part in zip(self.patches, self.parts, strict=True)
+        ]
+        total = float(self.solution.force.sum())
+        return sum(share * force for share, force in shares) / total if total > 0.0 else 0.0
+
+    @property
     def guesses(self) -> dict[int, Guess]:
         """By pair, for a contact that is much like this one."""
         return {
@@ -162,6 +172,22 @@ def _guess(p: Patch, force: Array) -> Guess:
     loaded = there & (force > 0.0)
     touching[column[loaded], row[loaded]] = True
     return Guess(p.window, touching if touching.any() else None)
+
+
+def _bounded_by_edges(p: Patch, force: Array) -> tuple[float, float]:
+    """Share of one contact's outline that lies on edges of the flanks, and its force, N."""
+    there, (column, row) = _places(p.window, p.plane, p.on.shape)
+    flanks, touching = np.zeros((2, *(n + 2 for n in p.on.shape)), dtype=bool)
+    flanks[column[there] + 1, row[there] + 1] = True
+    there &= force > 0.0
+    touching[column[there] + 1, row[there] + 1] = True
+    on_edges, whole = 0.0, 0.0
+    for axis, length in enumerate(p.size[::-1]):
+        for way in (-1, 1):
+            ends = touching & ~np.roll(touching, way, axis)
+            whole += length * np.count_nonzero(ends)
+            on_edges += length * np.count_nonzero(ends & ~np.roll(flanks, way, axis))
+    return (on_edges / whole if whole else 0.0), float(force.sum())
 
 
 def _places(
