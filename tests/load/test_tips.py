@@ -62,7 +62,7 @@ def test_gaps_open_at_rounded_tips_only(loaded: LoadedContact) -> None:
     before, after = np.full((2, *sharp.on.shape), np.nan)
     before[sharp.on], after[round_.on] = sharp.gap, round_.gap
     apart = np.full(sharp.on.shape, np.nan)
-    lines = [(t[0] + sharp.plane @ t[1:]) / np.hypot(*t[1:]) for t, *_ in sharp.lines]
+    lines = [arc.apart(sharp.plane) for arc in round_.arcs if arc is not None]
     apart[sharp.on] = np.min(lines, axis=0)
     far = both & (apart > RADIUS)
     assert far.sum() > 50

@@ -25,13 +25,14 @@ LIMITS = (
     EDGES.index("pinion fillet limit"),
 )  # by the mate's tip
 COLUMNS, ROWS = 25, 11  # cells along the contact and across
-CORNERS = 6  # of a rectangle that two tips have cut
+CORNERS = 8  # of a rectangle that two tips and two ends have cut
 STENCIL, REACH = (
     9,
     0.1,
 )  # points each way and whole depths, for the curvature where the pair touches first
 SECANTS, ARRIVED = 8, 1e-13  # most steps, and when they end, rad
 STEP = 1e-3  # mm, of differences
+NEAR = 0.1  # mm: cells so near to a rounded tip count full where its line is fitted
 STRAIGHT = 2e-5  # 1/mm: the least relative curvature that a first patch counts with
 
 
@@ -145,16 +146,36 @@ class Surface:
 def _edge_lines(surface: Surface, flanks: Any, plane: Array) -> tuple[Array, Array]:
     """Both members' sharp edges as straight lines of the tangent plane (see `Patch.lines`), from cells (n, 2) in it."""
     terms = np.column_stack([np.ones(len(plane)), plane])
-    places = (surface.pinion_place, surface.wheel_place)
     first, second = (
         np.linalg.lstsq(
             terms,
             np.stack([flank.tip.at(s) - h, s - flank.toe, flank.heel - s], axis=1),
             rcond=None,
         )[0].T
-        for flank, (s, h) in zip(flanks, places, strict=True)
+        for flank, (s, h) in zip(flanks, (surface.pinion_place, surface.wheel_place), strict=True)
     )
     return first, second
+
+
+def _arc(met: Meeting, cells: Surface, plane: Array, member: int) -> Arc | None:
+    """The rounded tip of a member (0 pinion, 1 wheel) as cells (n, 2) in the plane see it, None where it is sharp.
+
+    Its line is fitted to their distances from the tip, the near ones most: over a window it bends by up to 0.3 mm.
+    """
+    pair = met.contact.pair
+    radius = (pair.pinion, pair.wheel)[member].tip_rounding
+    if not (radius > 0.0 and len(plane)):
+        return None
+    flank = (met.contact.pinion_flank, met.contact.wheel_flank)[member]
+    s, h = (cells.pinion_place, cells.wheel_place)[member]
+    apart = flank.tip.at(s) - h
+    weight = (np.abs(apart) + NEAR) ** -2.0
+    terms = np.column_stack([np.ones(len(plane)), plane]) * weight[:, None]
+    line = np.linalg.lstsq(terms, apart * weight, rcond=None)[0]
+    line /= np.hypot(*line[1:])
+    there = np.array([np.abs(line[0] + plane @ line[1:]).argmin()])
+    point, normal = cells.cut(there).bodily[member]
+    return Arc(line, float(land_angle(flank, normal, point)[0]), radius)
 
 
 def meeting(contact: UnloadedContact, position: int, pair: int) -> Meeting | None:
@@ -265,7 +286,7 @@ class Patch:
     @property
     def corners(self) -> Array:
         """Corners (n, CORNERS, 2) of all cells, mm; the last is repeated where there are fewer."""
-        half = 0.5 * np.array(self.size) * [(-1, -1), (1, -1), (1, 1), (-1, 1), (-1, 1), (-1, 1)]
+        half = 0.5 * np.array(self.size) * [(-1, -1), (1, -1), (1, 1), *[(-1, 1)] * (CORNERS - 3)]
         return np.concatenate([self.plane[: self.whole, None] + half, self.cut])
 
 
@@ -300,17 +321,12 @@ def patch(met: Meeting, window: Window) -> Patch:
     b = window.across[0] + (np.arange(ROWS) + 0.5) * size[1]
     plane = np.stack(np.meshgrid(a, b, indexing="ij"), axis=-1).reshape(-1, 2)
     surface, gap, on = _faces(met, plane)
-    flanks = (met.contact.pinion_flank, met.contact.wheel_flank)
-    lines = _edge_lines(surface.cut(on), flanks, plane[on])
-    pair = met.contact.pair
-    radii = (pair.pinion.tip_rounding, pair.wheel.tip_rounding)
-    arcs: list[Arc | None] = [None, None]
-    for k, ((line, *_), radius) in enumerate(zip(lines, radii, strict=True)):
-        if radius > 0.0 and on.any():
-            unit = line / np.hypot(*line[1:])
-            there = np.flatnonzero(on)[[np.abs(unit[0] + plane[on] @ unit[1:]).argmin()]]
-            point, normal = surface.cut(there).bodily[k]
-            arcs[k] = Arc(unit, float(land_angle(flanks[k], normal, point)[0]), radius)
+    seen = surface.cut(on)
+    lines = _edge_lines(seen, (met.contact.pinion_flank, met.contact.wheel_flank), plane[on])
+    arcs = _arc(met, seen, plane[on], 0), _arc(met, seen, plane[on], 1)
+    for line, arc in zip(lines, arcs, strict=True):
+        if arc is not None:
+            line[0] = arc.line
     gap += _falls_away(arcs, plane)
     on &= np.isfinite(gap)
     return Patch(
@@ -320,7 +336,7 @@ def patch(met: Meeting, window: Window) -> Patch:
         on=on.reshape(COLUMNS, ROWS),
         cut=np.zeros((0, CORNERS, 2)),
         lines=lines,
-        arcs=(arcs[0], arcs[1]),
+        arcs=arcs,
         **_cells(surface.cut(on), plane[on], np.full(on.sum(), size[0] * size[1]), gap[on], arcs),
     )
 
@@ -350,10 +366,12 @@ def nearest_edge(p: Patch, force: Array) -> tuple[Array, Array]:
     The fillet limit that a rounded tip works near is none before the contact reaches it: the flank goes on smoothly.
     """
     edges = p.edges.copy()
+    terms = np.column_stack([np.ones(p.count), p.plane])
     for arc, limit in zip(p.arcs, LIMITS, strict=True):
         if arc is not None:
-            tall = np.ptp(p.corners @ arc.line[1:], axis=1)
-            if not ((force > 0.0) & (edges[:, limit] < tall)).any():
+            slope = np.linalg.lstsq(terms, edges[:, limit], rcond=None)[0][1:]
+            spread = np.ptp(p.corners @ slope, axis=1)
+            if not ((force > 0.0) & (edges[:, limit] < spread)).any():
                 edges[:, limit] = np.inf
     return edges.min(axis=1), edges.argmin(axis=1)
 

@@ -55,8 +55,13 @@ def with_strips(p: Patch, depths: Mapping[int, float]) -> Patch:
         inner = float(rows[-1])
         gone, pieces = _cut_cells(p, kept, arc, inner)
         kept &= ~gone
-        cut = [c for one in cut if len(c := _beyond(one, arc, inner))] + pieces + strip
+        cut = [c for one in cut if len(c := _beyond(one, arc.apart(one) - inner))] + pieces + strip
         borders.append((arc, inner))
+    # narrow cells that reach over an end would see each other in its mirror
+    for _, *ends in p.lines:
+        for end in ends:
+            line = end / np.hypot(*end[1:])
+            cut = [c for one in cut if len(c := _beyond(one, line[0] + one @ line[1:]))]
     return recut(p, kept, np.array([_padded(c) for c in cut]).reshape(-1, CORNERS, 2))
 
 
@@ -95,12 +100,14 @@ def _cut_cells(p: Patch, kept: Array, arc: Arc, inner: float) -> tuple[Array, li
         parts = [i for i in mine if gone[i] and apart[i].max() > inner]
         if not parts:
             continue
-        piece = _beyond(_around(corners[parts]), arc, inner)
+        around = _around(corners[parts])
+        piece = _beyond(around, arc.apart(around) - inner)
         after = mine[mine.tolist().index(parts[-1]) + 1 :][:1]
         small = len(piece) == 0 or middles(piece[None])[1][0] < LEAST * p.size[0] * p.size[1]
         if small and len(after) and abs(place[after[0], axis] - place[parts[-1], axis]) == 1:
             gone[after[0]] = True
-            piece = _beyond(_around(corners[[*parts, after[0]]]), arc, inner)
+            around = _around(corners[[*parts, after[0]]])
+            piece = _beyond(around, arc.apart(around) - inner)
         if len(piece):
             pieces.append(piece)
     return gone, pieces
@@ -141,9 +148,8 @@ def _strip(p: Patch, arc: Arc, rows: Array) -> list[Array]:
     return made
 
 
-def _beyond(corners: Array, arc: Arc, inner: float) -> Array:
-    """What is left (k, 2) of a convex polygon more than `inner` mm inside a tip; nothing where that is no area."""
-    apart = arc.apart(corners) - inner
+def _beyond(corners: Array, apart: Array) -> Array:
+    """What is left (m, 2) of a convex polygon (k, 2) where `apart` (k,) of a line is positive; nothing if no area."""
     made: list[Array] = []
     for k, (here, to) in enumerate(zip(apart, np.roll(apart, -1), strict=True)):
         if here >= 0.0:

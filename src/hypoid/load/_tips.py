@@ -17,6 +17,7 @@ from hypoid.contact import AngleField, angle_field
 from hypoid.flank import Border, Flank
 
 Array = np.ndarray[Any, Any]
+ASTRAY = 0.05  # mm: a tip may bend so far from the straight line that it is taken for
 STEEPEST = np.radians(70.0)  # against the flank: where an arc is no longer looked at
 
 
@@ -49,7 +50,8 @@ def active_field(flank: Flank, rounding: float) -> AngleField:
     if not rounding > 0.0:
         return field
     tip = field.tip
-    return replace(field, tip=Border(float(tip.height) + rounding, float(tip.slope)))
+    beyond = rounding + ASTRAY
+    return replace(field, tip=Border(float(tip.height) + beyond, float(tip.slope)))
 
 
 def land_angle(flank: Flank, normal: Array, point: Array) -> Array:
