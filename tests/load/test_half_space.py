@@ -12,7 +12,15 @@ from scipy.optimize import brentq, nnls
 from scipy.special import ellipe, ellipk
 
 from hypoid.load._active_set import Outcome, solve_contact
-from hypoid.load._love import mirrored_grid, parallelogram, rectangle, regular_grid
+from hypoid.load._love import (
+    mirrored,
+    mirrored_grid,
+    parallelogram,
+    polygon,
+    rectangle,
+    regular_grid,
+    unlike,
+)
 from hypoid.load._patch import greatest
 
 MODULUS = 103e3 / 0.91  # E*, MPa: two bodies of 206 GPa and 0.3
@@ -78,7 +86,7 @@ def test_the_greatest_pressure_does_not_depend_on_where_the_cells_stand() -> Non
         found = solve_contact(compliance, (x * x + y * y) / (2.0 * radius), np.ones(n * n), force)
         pressure = found.force / size**2
         cells.append(pressure.max() / exact)
-        on: Any = SimpleNamespace(on=np.ones((n, n), dtype=bool))
+        on: Any = SimpleNamespace(on=np.ones((n, n), dtype=bool), whole=n * n)
         read.append(greatest(on, pressure, np.ones(n * n, dtype=bool)) / exact)
     assert np.ptp(cells) > 0.01
     assert np.ptp(read) < 0.004
@@ -172,6 +180,61 @@ def test_a_parallelogram_is_a_rectangle_when_square_and_a_sum_when_not() -> None
         r = np.hypot(*(place - q).transpose(2, 0, 1))
         assert parallelogram(q, first, second) == pytest.approx(area * (1.0 / r).mean(), rel=3e-3)
     assert parallelogram(at, second, first) == pytest.approx(parallelogram(at, first, second))
+
+
+def boxes(x: Any, y: Any, width: Any, height: Any) -> Any:
+    """Corners (n, 4, 2) of rectangles."""
+    half = 0.5 * np.stack(np.broadcast_arrays(width, height, x), axis=-1)[:, None, :2]
+    return np.stack([x, y], axis=-1)[:, None] + half * [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+
+
+def test_pieces_of_a_rectangle_add_up_to_it() -> None:
+    """Cut by an inclined line; a corner given twice does not count."""
+    whole = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 0.5], [0.0, 0.5]])
+    left = np.array([[0.0, 0.0], [0.3, 0.0], [0.7, 0.5], [0.0, 0.5], [0.0, 0.5]])
+    right = np.array([[0.7, 0.5], [0.3, 0.0], [1.0, 0.0], [1.0, 0.5]])  # the other way round
+    for eye in (np.array([0.2, 0.1]), np.array([3.0, -1.0]), np.array([0.3, 0.0])):
+        found = polygon(eye, left) + polygon(eye, right)
+        assert found == pytest.approx(float(polygon(eye, whole)), rel=1e-12)
+
+
+@pytest.mark.parametrize("growth", [1.0, 1.15, 1.3])
+def test_a_line_contact_on_rows_that_grow(growth: float) -> None:
+    """Hertz's cylinder on rows of one or of growing height, twenty over the contact: its peak within 1 %."""
+    radius, half, columns, rows, length = 0.2, 0.01, 11, 20, 20.0
+    line = np.pi * half**2 * MODULUS / (4.0 * radius)
+    height = growth ** np.arange(rows)
+    height *= 2.6 * half / height.sum()
+    y = np.cumsum(height) - 0.5 * height - 1.3 * half
+    step = length / columns
+    x = (np.arange(columns) - (columns - 1) / 2.0) * step
+    x, y = (v.ravel() for v in np.meshgrid(x, y, indexing="ij"))
+    height = np.tile(height, columns)
+    place, area = np.stack([x, y], axis=-1), step * height
+    corners = boxes(x, y, step, height)[:, [0, 1, 2, 3, 3, 3]]
+    matrix = unlike(place, place, corners, area, 0) / (np.pi * MODULUS)
+    np.testing.assert_array_equal(matrix, matrix.T)
+    found = solve_contact(matrix, y * y / (2.0 * radius), np.ones_like(y), line * length)
+    force = found.force.reshape(columns, rows)[columns // 2]
+    peak = (force / area[:rows]).max()
+    exact = np.sqrt(force.sum() / step * MODULUS / (np.pi * radius))
+    assert peak == pytest.approx(exact, rel=0.01)
+
+
+def test_cells_of_a_grid_as_polygons_are_the_grid() -> None:
+    """Far ones as points: five lengths off along it, a cell's field is 1/(12 * 25) more than a point's."""
+    columns, rows, width, height = 7, 5, 0.4, 0.13
+    grid = np.meshgrid(np.arange(columns) * width, np.arange(rows) * height, indexing="ij")
+    place = np.stack(grid, axis=-1).reshape(-1, 2)
+    x, y = place.T
+    corners = boxes(x, y, width, height)[:, [0, 1, 2, 3, 3, 3]]
+    area = np.full(len(place), width * height)
+    found = unlike(place, place, corners, area, 0) * area
+    np.testing.assert_allclose(found, regular_grid(columns, rows, width, height), rtol=1 / 290)
+    line = np.array([1.0, 0.3, 0.8])
+    found = unlike(mirrored(place, line), place, corners, area, 0) * area
+    image = mirrored_grid(x, y, line, width, height)
+    np.testing.assert_allclose(found, image, rtol=1 / 290)
 
 
 def test_images_beyond_a_line() -> None:

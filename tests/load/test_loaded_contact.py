@@ -15,6 +15,8 @@ from hypoid.contact import Misalignment, to_wheel
 from hypoid.design import build
 from hypoid.geometry import DesignError
 from hypoid.load import (
+    Elements,
+    LoadCase,
     LoadedContact,
     Outcome,
     ToothCompliance,
@@ -23,8 +25,8 @@ from hypoid.load import (
     tooth_compliance,
 )
 from hypoid.load._cells import Cells, compliance
-from hypoid.load._loaded import _spline_range
-from hypoid.load._patch import Window, meeting, patch
+from hypoid.load._load_case import _spline_range
+from hypoid.load._patch import EDGES, Window, meeting, patch
 from hypoid.load._position import position_contact
 from hypoid.pair import GearPair
 
@@ -255,8 +257,17 @@ def test_bad_input_is_told_all_at_once(
 def test_too_few_pairs_are_told(
     relief_pair: GearPair, drive_teeth: tuple[ToothCompliance, ToothCompliance]
 ) -> None:
-    found = loaded_contact(relief_pair, "drive", [11e4], *drive_teeth, positions=5, pairs=3)
-    assert any("two more pairs" in words for words in found.cases[0].faults)
+    """With how many are enough: two fewer still are not."""
+
+    def told(pairs: int) -> tuple[int, str]:
+        found = loaded_contact(relief_pair, "drive", [11e4], *drive_teeth, positions=5, pairs=pairs)
+        return found.cases[0].pairs_needed, " ".join(found.cases[0].faults)
+
+    needed, words = told(3)
+    assert needed > 3
+    assert f"{needed} are needed" in words
+    assert told(needed - 2)[0] == needed
+    assert told(needed) == (0, "")
 
 
 def test_an_interrupt_keeps_what_is_done(
@@ -318,11 +329,61 @@ def test_drive_of_a_mirrored_pair_under_errors_is_the_drive_of_the_pair(
 def test_a_torque_beyond_all_measure_is_told(
     relief_pair: GearPair, drive_teeth: tuple[ToothCompliance, ToothCompliance]
 ) -> None:
-    """200 times the design's: the contact covers the flanks, their edges lead and the result says so."""
-    found = loaded_contact(relief_pair, "drive", [2.2e7], *drive_teeth, positions=5)
-    words = " ".join(found.cases[0].faults)
-    assert words
+    """200 times the design's: edges bound the contacts, which is an outcome, and where it begins is told."""
+    found = loaded_contact(relief_pair, "drive", [11e4, 2.2e7], *drive_teeth, positions=5)
+    light, far = found.cases
+    assert all(at.outcome is Outcome.OK for at in light.positions)
+    assert light.leaves_at == 0.0
+    assert all(at.outcome is Outcome.LEFT_FLANKS for at in far.positions)
+    (words,) = far.faults
     assert "22000 N m" in words
+    assert "left the flanks" in words
+    assert f"{far.leaves_at * 1e-3:.2g} N m" in words
+    shares = [at(found, torque).bounded_by_edges for torque in (11e4, far.leaves_at, 2.2e7)]
+    assert shares[0] < 0.1
+    assert shares[1] == pytest.approx(0.5, abs=0.05)
+    assert shares[2] > 0.7
+
+
+def test_a_light_contact_is_bounded_by_flanks_that_part(loaded: LoadedContact) -> None:
+    assert at(loaded, TORQUES[0]).bounded_by_edges == 0.0
+
+
+@pytest.mark.parametrize("torque", [3e4, 11e4])
+def test_the_arc_of_contact_is_the_mean_number_of_pairs(
+    relief_pair: GearPair, drive_teeth: tuple[ToothCompliance, ToothCompliance], torque: float
+) -> None:
+    """Read between positions, eight a pitch find it within 0.05; forty count it within one of them."""
+
+    def case(positions: int) -> LoadCase:
+        return loaded_contact(
+            relief_pair, "drive", [torque], *drive_teeth, positions=positions
+        ).cases[0]
+
+    fine, few = case(81), case(17)
+    assert fine.arc_of_contact == pytest.approx(fine.contact_ratio, abs=1.0 / 40.0)
+    assert few.arc_of_contact == pytest.approx(fine.arc_of_contact, abs=0.06)
+
+
+@pytest.mark.slow
+def test_load_beside_an_end_hardly_depends_on_the_elements(
+    loaded: LoadedContact, relief_pair: GearPair, compliance_folder: Path
+) -> None:
+    """A pair alone across the wheel's heel: force on the last millimetre, with images beyond the ends, within 3 %."""
+    fine = Elements(along=28, profile=10, fillet=2, through=4, below=2, rim=2)
+    members = (
+        tooth_compliance(relief_pair.pinion, "concave", elements=fine, cache=compliance_folder),
+        tooth_compliance(relief_pair.wheel, "convex", elements=fine, cache=compliance_folder),
+    )
+    met = meeting(loaded.unloaded, len(loaded.unloaded.phi) // 2, 2)
+    assert met is not None
+    forces = []
+    for teeth in (loaded.teeth, replace(loaded.teeth, pinion=members[0], wheel=members[1])):
+        found = position_contact([met], teeth, 4e4)
+        beside = found.patches[0].edges[:, EDGES.index("wheel heel")] < 1.0
+        forces.append(found.solution.force[beside].sum())
+    assert forces[0] == pytest.approx(forces[1], rel=0.03)
+    assert forces[0] > 1000.0
 
 
 def test_the_range_between_positions_is_that_of_a_smooth_curve() -> None:

@@ -56,8 +56,11 @@ def _case(case: LoadCase, stress: dict[str, RootStress]) -> dict[str, Any]:
     return {
         "torque_Nm": case.torque * NM,
         "max_pressure_MPa": case.max_pressure,
+        "rounded_tip_pressure_MPa": case.tip_pressure,
         "edge_contact": case.edge_contact,
+        "left_flanks_from_Nm": case.leaves_at * NM or None,
         "contact_ratio_under_load": case.contact_ratio,
+        "arc_of_contact_pitches": case.arc_of_contact,
         "transmission_error_peak_to_peak_urad": case.peak_to_peak * URAD,
         "transmission_error_peak_to_peak_doubt_urad": case.peak_to_peak_doubt * URAD,
         "transmission_error_harmonics_urad": case.harmonics() * URAD,
@@ -71,6 +74,7 @@ def _position(at: LoadedPosition) -> dict[str, Any]:
     return {
         "pinion_angle_deg": degrees(at.pinion_angle),
         "max_pressure_MPa": at.max_pressure,
+        "rounded_tip_pressure_MPa": at.tip_pressure,
         "pairs_in_contact": len(at.pairs),
         "pairs": [p.pair for p in at.pairs],
         "load_share": [p.share for p in at.pairs],
@@ -113,14 +117,19 @@ def _show(found: Computed) -> None:
     cases = found.loaded.cases
     rows: list[tuple[str, list[float | int | str]]] = [
         ("greatest pressure [MPa]", [c.max_pressure for c in cases]),
+        ("of that on rounded tips [MPa]", [c.tip_pressure for c in cases]),
         ("edge contact", ["yes" if c.edge_contact else "no" for c in cases]),
         ("contact ratio under load", [c.contact_ratio for c in cases]),
+        ("arc of contact [pitches]", [c.arc_of_contact for c in cases]),
         ("pairs in contact", [_range([len(p.pairs) for p in c.positions]) for c in cases]),
         ("TE under load, peak to peak [urad]", [c.peak_to_peak * URAD for c in cases]),
         ("TE under load, mean [urad]", [float(c.transmission_error.mean()) * URAD for c in cases]),
         ("root stress, pinion [MPa]", [s["pinion"].max_principal for s in found.stress]),
         ("root stress, wheel [MPa]", [s["wheel"].max_principal for s in found.stress]),
     ]
+    members = (found.loaded.pair.pinion, found.loaded.pair.wheel)
+    if not any(m.tip_rounding > 0.0 for m in members):
+        rows = [row for row in rows if "rounded tips" not in row[0]]
     title = f"{found.loaded.pair.title}: {found.loaded.direction}"
     write_table(title, [f"{c.torque * NM:g} N m" for c in cases], rows)
     for a in found.assumed:

@@ -64,6 +64,16 @@ class Fit:
         )
 
 
+EVENED = 10  # runs that lead from least squares towards the least greatest residual
+FLOOR = 0.05  # of the greatest residual, that every row counts with at least
+
+
+def evened(weight: Array, left: Array, greatest: float) -> Array:
+    """Weights (n,) of rows for another run, from what they left in the last: nearer to the least greatest [Lawson 1961]."""
+    made = weight * np.sqrt(np.abs(left) / greatest + FLOOR)
+    return made / np.sqrt(np.mean(made**2))
+
+
 Model = Callable[[Array, Any], Look | None]
 
 

@@ -14,7 +14,7 @@ from hypoid.flank import SIDES, Side
 from hypoid.machine import MachineSettings
 
 from ._conjugate import Conjugate, conjugate
-from ._fit import Fit, Look, gauss_newton, promised
+from ._fit import EVENED, Fit, Look, evened, gauss_newton, promised
 from ._flank_fit import MOST_ADVICE, plain_settings
 from ._hobbed_joint import (
     BLADES,
@@ -24,6 +24,7 @@ from ._hobbed_joint import (
     JointModel,
     JointSeen,
     Memory,
+    SideModel,
     joint_model,
     joint_vector,
 )
@@ -134,7 +135,7 @@ def fit_hobbed(
             plain_start(plan, blank, thickness) if plain else conjugate_start(plan, blank, wheel)
         )
         fit = None if start is None else _fitted(request, blank, start, found, targets, thickness)
-        if best is None or (fit is not None and fit.fit.cost < best.fit.cost):
+        if best is None or (fit is not None and fit.largest < best.largest):
             best = fit
         if best is not None and best.largest <= request.tolerance:
             break
@@ -204,6 +205,7 @@ def _fitted(
         if last is None:
             break
         vector, fit = last
+    vector, fit = work.evened(vector, fit, free, more, limits)
     return work.result(vector, fit, free, limits)
 
 
@@ -310,6 +312,38 @@ class _Work:
         scale = np.array([limits[name] for name in free])
         fit = gauss_newton(model, vector[index], memory, scale, steps=steps)
         return None if fit is None else (full(fit.x), fit)
+
+    def evened(
+        self,
+        vector: Array,
+        fit: Fit,
+        free: tuple[str, ...],
+        more: Mapping[str, Wish],
+        limits: Mapping[str, float],
+    ) -> tuple[Array, Fit]:
+        """Where a fit ended, or nearer to the least greatest residual if squares keep more than the tolerance."""
+        best, least, model = (vector, fit), math.inf, self.model
+        for _ in range(EVENED):
+            seen = self.look(vector, {}, fit.look.memory)
+            if seen is None:
+                break
+            left = {side: seen.misfit[side][own.there] for side, own in model.sides.items()}
+            greatest = max(float(np.abs(v).max()) for v in left.values())
+            if greatest < least:
+                best, least = (vector, fit), greatest
+            if least <= self.request.tolerance:
+                break
+            sides: dict[Side, SideModel] = {}
+            for side, own in model.sides.items():
+                weight = own.weight.copy()
+                weight[own.there] = evened(weight[own.there], left[side], greatest)
+                sides[side] = replace(own, weight=weight)
+            model = replace(model, sides=sides)
+            found = replace(self, model=model).run(vector, free, more, fit.look.memory, limits)
+            if found is None:
+                break
+            vector, fit = found
+        return best
 
     def result(
         self, vector: Array, fit: Fit, free: tuple[str, ...], limits: Mapping[str, float]

@@ -62,6 +62,7 @@ class SideModel:
     conjugate: Conjugate
     wanted: Array  # (n,) mm, the target ease-off
     there: Array  # (n,) bool: points that count
+    weight: Array  # (n,) of their rows
     stick: Stick
     z: Array  # (n + 1,) mm, where the flank is asked for, the mean point last
     rho: Array
@@ -119,12 +120,13 @@ class JointModel:
             slopes = -(turned[:, :-1] - turned[:, c.middle : c.middle + 1]) * c.lever
             misfit[side] = ease_off - (model.wanted - model.wanted[c.middle])
             off_root[side] = root[2] - self.root_height
+            weight = model.weight[model.there] / UM
             rows += [
-                misfit[side][model.there] / UM,
+                weight * misfit[side][model.there],
                 off_root[side] / (SIDE_ROOTS * self.root_spread),
             ]
             lines += [
-                _spread(slopes[:, model.there].T / UM, columns),
+                _spread(weight[:, None] * slopes[:, model.there].T, columns),
                 _spread((root[4:] / (SIDE_ROOTS * self.root_spread)).T, columns),
             ]
         turn = at_mean["convex"][0] - at_mean["concave"][0]
@@ -212,7 +214,7 @@ def joint_model(
         # what does not count is asked for at the mean point, so that Newton always arrives
         lost = ~np.append(there, True)
         z[lost], rho[lost], got[:3, lost] = mean[0], mean[1], got[:3, -1:]
-        sides[side] = SideModel(side, c, wanted, there, held, z, rho)
+        sides[side] = SideModel(side, c, wanted, there, np.ones(len(there)), held, z, rho)
         memory[side] = got[0], got[1], got[2], cut[0], cut[1]
     return JointModel(
         cone,

@@ -13,6 +13,7 @@ import numpy as np
 
 from hypoid.flank import SIDES, Side
 
+from ._fit import EVENED, evened
 from ._flank_fit import FlankFit, flank_fits
 from ._joint_fit import Wish
 from ._milled_wheel import pitch_cone
@@ -26,8 +27,6 @@ from ._target import MotionTarget
 
 CORRECTIONS = 4  # of a target's transmission error
 MET = 0.005  # of the asked transmission error
-EVENINGS = 10  # runs that lead from least squares towards the least greatest residual
-FLOOR = 0.05  # of the greatest residual, that every place counts with at least
 
 
 def fit_pinion(task: PinionTask) -> dict[Side, FlankFit]:
@@ -69,21 +68,15 @@ def _best(task: PinionTask, starts: Sequence[Callable[[], Stage | None]]) -> Sta
 
 
 def _evened(task: PinionTask, stage: Stage) -> Stage:
-    """The stage, or one nearer to the least greatest residual, where least squares keep more than the tolerance.
-
-    Rows are weighted by what their places keep, over and over [C. L. Lawson, 1961].
-    """
+    """The stage, or one nearer to the least greatest residual, where least squares keep more than the tolerance."""
     best = stage
-    for _ in range(EVENINGS):
+    for _ in range(EVENED):
         if best.largest <= task.request.tolerance or stage.fit is None:
             break
-        sizes = [np.abs(m.off(k)) for m, k in zip(stage.models, stage.fit.looks, strict=True)]
-        greatest = max(float(size.max()) for size in sizes)
         models = []
-        for model, size in zip(stage.models, sizes, strict=True):
+        for model, look in zip(stage.models, stage.fit.looks, strict=True):
             weight = model.weight.copy()
-            weight[model.there] *= np.sqrt(size / greatest + FLOOR)
-            weight /= np.sqrt(np.mean(weight[model.there] ** 2))
+            weight[model.there] = evened(weight[model.there], model.off(look), stage.largest)
             models.append(replace(model, weight=weight))
         found = run(task, replace(stage, models=tuple(models), fit=None), task.free, _spread(task))
         if found is None:

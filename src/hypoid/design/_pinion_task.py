@@ -152,7 +152,7 @@ def run(
     """
     joint = len(stage.models) > 1
     wishes = {**_blade_wishes(task, stage), **more}
-    for _ in range(UNFOLDINGS):
+    for left in range(UNFOLDINGS, 0, -1):
         tie = _slot_tie(task, stage) if joint else None
         looks: list[FlankModel] = [model.look for model in stage.models]
         found = joint_fit(
@@ -162,7 +162,7 @@ def run(
         if found is None:
             return None
         stage = Stage(stage.models, found.vectors, found.fit.look.memory, found)
-        if not any(look.folded.any() for look in found.looks):
+        if left == 1 or not any(look.folded.any() for look in found.looks):
             return stage
         pairs = zip(stage.models, found.looks, strict=True)
         models = tuple(replace(m, there=m.there & ~look.folded) for m, look in pairs)

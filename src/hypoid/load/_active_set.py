@@ -37,7 +37,8 @@ class Outcome(Enum):
     NOT_POSITIVE = (
         "The compliance is not positive: the tooth's mesh is too coarse for the cells' spacing."
     )
-    MORE_PAIRS = "The last of the pairs looked at carries load: look at two more pairs."
+    MORE_PAIRS = "The last of the pairs looked at carries load: look at more pairs."
+    LEFT_FLANKS = "The contact has left the flanks: edges bound more than half of it."
     NO_CONTACT = "No cell can carry the moment: the flanks do not meet here."
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from ._bearings import RIGID, Bearings, wrenches
 from ._compliance import ToothCompliance
 from ._hats import IMAGE
-from ._love import mirrored_grid, regular_grid
+from ._love import mirrored, mirrored_grid, regular_grid, unlike
 from ._patch import Patch
 
 Array = np.ndarray[Any, Any]
@@ -51,14 +51,26 @@ class Cells:
 
     @cached_property
     def half_space(self) -> Array:
-        """Displacement (n, n), mm/N, of half-spaces with each cell's images beyond both tips."""
+        """Displacement (n, n), mm/N, of half-spaces with each cell's images beyond tips and ends."""
         p = self.patch
-        on, (columns, rows) = p.on.ravel(), p.on.shape
-        cells = regular_grid(columns, rows, *p.size)[np.ix_(on, on)] / self.teeth.plane_modulus
-        for member, tip in zip((self.teeth.pinion, self.teeth.wheel), p.tips, strict=True):
-            image = mirrored_grid(p.plane[:, 0], p.plane[:, 1], tip, *p.size)
-            cells += IMAGE / member.made_of.plane_modulus * image
-        cells *= 1.0 / (np.pi * p.size[0] * p.size[1])
+        whole, on, (columns, rows) = p.whole, p.on.ravel(), p.on.shape
+        x, y = p.plane[:whole].T
+        cells = np.zeros((p.count, p.count))
+        grid = regular_grid(columns, rows, *p.size)[np.ix_(on, on)] / self.teeth.plane_modulus
+        rest = np.zeros((p.count, len(p.cut)))
+        if len(p.cut):
+            rest = unlike(p.plane, p.plane, p.corners, p.flat, whole) / self.teeth.plane_modulus
+        for member, lines in zip((self.teeth.pinion, self.teeth.wheel), p.lines, strict=True):
+            weight = IMAGE / member.made_of.plane_modulus
+            for line in lines:
+                grid += weight * mirrored_grid(x, y, line, *p.size)
+                if len(p.cut):
+                    eye = mirrored(p.plane, line)
+                    rest += weight * unlike(eye, p.plane, p.corners, p.flat, whole)
+        cells[:whole, :whole] = grid / (p.size[0] * p.size[1])
+        cells[:, whole:] = rest
+        cells[whole:, :whole] = rest[:whole].T
+        cells *= 1.0 / np.pi
         return cells
 
     @cached_property

@@ -6,6 +6,7 @@ is the mean inward displacement under the hat. So compliance between hats is sym
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,7 +20,7 @@ from ._love import parallelogram
 Array = np.ndarray[Any, Any]
 SPLIT = 4  # sub-cells of a face each way, for the half-space
 NEAR = 4.0  # sub-cells this many sizes apart see each other as points
-IMAGE = 1.0  # weight of what lies mirrored beyond the tip: a half-space is too stiff beside an edge
+IMAGE = 1.0  # weight of what lies mirrored beyond an edge: a half-space is too stiff there
 CORNERS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
 MIDDLES = np.array([[0.0, -1.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]])
 
@@ -91,8 +92,9 @@ def hat_loads(nodes: Array, faces: Array, cone: PitchCone, outward: float) -> Ha
     load, area = _loads(nodes, faces, number, hats.count, outward)
     knot = np.zeros((hats.count, 3))
     knot[number] = nodes[faces[:, :4]]
-    tip = knot.reshape(*hats.height.shape, 3)[:, -1]
-    return HatLoads(hats, load / area, _half_space(nodes, faces, number, hats.count, tip))
+    knot = knot.reshape(*hats.height.shape, 3)
+    edges = (knot[:, -1], knot[0], knot[-1])  # tip, toe, heel
+    return HatLoads(hats, load / area, _half_space(nodes, faces, number, hats.count, edges))
 
 
 def _knots(nodes: Array, corners: Array, cone: PitchCone) -> tuple[Hats, Array]:
@@ -135,10 +137,12 @@ def _loads(
     return load, area
 
 
-def _half_space(nodes: Array, faces: Array, number: Array, count: int, tip: Array) -> Array:
+def _half_space(
+    nodes: Array, faces: Array, number: Array, count: int, edges: Sequence[Array]
+) -> Array:
     """Mean of the integral of 1/r under hat a, of hat b's unit force (hats, hats), 1/mm.
 
-    Distances are chords; sub-cells are flat parallelograms. Each has its image beyond the tip (points of that edge).
+    Distances are chords; sub-cells are flat parallelograms. Each has its image beyond each of the edges (k, 3).
     """
     x = (np.arange(SPLIT) + 0.5) * 2.0 / SPLIT - 1.0
     at = np.stack([v.ravel() for v in np.meshgrid(x, x, indexing="ij")], axis=1)
@@ -148,7 +152,8 @@ def _half_space(nodes: Array, faces: Array, number: Array, count: int, tip: Arra
         for s in (value, by_x * 2.0 / SPLIT, by_y * 2.0 / SPLIT)
     )
     seen = _seen(place, place, first, second)
-    seen += IMAGE * _seen(2.0 * _nearest(place, tip) - place, place, first, second)
+    for edge in edges:
+        seen += IMAGE * _seen(2.0 * _nearest(place, edge) - place, place, first, second)
     hat = sparse.coo_array(
         (
             np.tile(bilinear(at).ravel(), len(faces)),

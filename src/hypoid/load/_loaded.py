@@ -6,12 +6,11 @@ All teeth of a member are alike, so one pitch of positions is solved and the oth
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from hypoid.contact import Misalignment, Sampling, UnloadedContact, unloaded_contact
 from hypoid.geometry import DesignError, Problem
@@ -21,174 +20,15 @@ from ._active_set import Outcome
 from ._bearings import Bearings, bearings_of, moved_mounting, wrenches
 from ._cells import Teeth
 from ._compliance import ToothCompliance
-from ._patch import EDGES, Patch, greatest, meeting
+from ._limits import has_left, has_left_at, leaves_at, needs_more, pairs_needed
+from ._load_case import PAIRS, LoadCase, LoadedPosition, PairLoad
+from ._patch import EDGES, Patch, greatest, meeting, nearest_edge, on_arcs
 from ._position import EDGE, Guess, PositionContact, position_contact
 
 Array = np.ndarray[Any, Any]
 Progress = Callable[[str, int, int], None]
 FINE = 40  # positions a pitch of the unloaded contact, at least
-PAIRS = (9, 11, 13)  # tooth pairs that are looked at, more where the outermost carries load
 GROWN = 2.0  # times: the most that a contact is thought to grow from one torque to the next
-
-
-@dataclass(frozen=True, eq=False)
-class PairLoad:
-    """What one tooth pair carries at one position."""
-
-    pair: int  # stands this many pitches behind pair 0
-    share: float  # of the torque
-    force: float  # N, normal
-    max_pressure: (
-        float  # MPa, more than 0.3 mm from tip, toe, heel and fillet limit of both members
-    )
-    edge_pressure: float  # MPa, nearer: moves with the cells
-    edge_force: float  # N, on these cells
-    edge: str  # the edge beside the greatest of that, "wheel heel", or none
-    place: tuple[float, float]  # (S, H) of the greatest pressure on the pinion, mm
-    distance: Array  # (n,) S of cells on the pinion, mm
-    height: Array  # (n,) H
-    wheel_distance: Array
-    wheel_height: Array
-    pressure: Array  # (n,) MPa
-    area: Array  # (n,) mm2
-    pinion_hats: Array  # (h,) N: the same load on the members' hats
-    wheel_hats: Array
-
-    @property
-    def touching(self) -> bool:
-        return self.force > 0.0
-
-
-@dataclass(frozen=True, eq=False)
-class LoadedPosition:
-    """Loaded contact at one pinion angle."""
-
-    pinion_angle: float  # rad
-    rotation: float  # rad, of the pinion against the wheel beyond the unloaded contact
-    unloaded: float  # rad, transmission error without load
-    transmission_error: float  # rad, wheel minus z1/z2 pinion, positive where the wheel leads
-    stiffness: float  # N mm/rad, of the pinion's rotation at this torque
-    wheel_torque: float  # N mm
-    pinion_wrench: (
-        Array  # (6,) N, N mm of the contact on the pinion, in its bearings' frame (see `Bearings`)
-    )
-    wheel_wrench: Array
-    pinion_motion: Array  # (6,) mm, rad of the pinion on its bearings
-    wheel_motion: Array
-    misalignment: Misalignment  # that these motions amount to, beyond the one asked for
-    pairs: tuple[PairLoad, ...]  # by pair, touching ones only
-    outcome: Outcome
-    open_window: bool
-
-    @property
-    def pinion_axial(self) -> float:
-        """Force of the contact on the pinion along its axis, N, positive to the heel."""
-        return float(self.pinion_wrench[2])
-
-    @property
-    def pinion_radial(self) -> float:
-        """Force square to the axis, N."""
-        return float(np.hypot(*self.pinion_wrench[:2]))
-
-    @property
-    def wheel_axial(self) -> float:
-        return float(self.wheel_wrench[2])
-
-    @property
-    def wheel_radial(self) -> float:
-        return float(np.hypot(*self.wheel_wrench[:2]))
-
-    @property
-    def max_pressure(self) -> float:
-        """Greatest pressure, MPa, away from edges."""
-        return max((p.max_pressure for p in self.pairs), default=0.0)
-
-    @property
-    def edge_contact(self) -> bool:
-        """Whether the pressure is greatest at a tip, at toe or heel, or where a fillet begins."""
-        edge = max((p.edge_pressure for p in self.pairs), default=0.0)
-        return edge > self.max_pressure
-
-
-@dataclass(frozen=True, eq=False)
-class LoadCase:
-    """One torque over the mesh cycle."""
-
-    torque: float  # N mm, on the pinion
-    positions: tuple[LoadedPosition, ...]
-    per_pitch: int  # positions a pitch
-
-    @property
-    def transmission_error(self) -> Array:
-        """Transmission error under load (positions,), rad."""
-        return np.array([p.transmission_error for p in self.positions])
-
-    @property
-    def peak_to_peak(self) -> float:
-        """Peak to peak of the transmission error under load, between positions, too, rad.
-
-        That of a periodic cubic spline through one pitch of them; of the positions alone where the cycle was cut short.
-        """
-        own = self.transmission_error[: self.per_pitch]
-        return _spline_range(own) if len(own) == self.per_pitch else float(np.ptp(own))
-
-    @property
-    def peak_to_peak_doubt(self) -> float:
-        """How far every second position alone would put the peak to peak elsewhere, rad; NaN for odd counts."""
-        own = self.transmission_error[: self.per_pitch]
-        if len(own) < self.per_pitch or len(own) % 2 or len(own) < 6:
-            return float("nan")
-        return abs(_spline_range(own) - _spline_range(own[::2]))
-
-    @property
-    def max_pressure(self) -> float:
-        """Greatest pressure, MPa, away from edges."""
-        return max(p.max_pressure for p in self.positions)
-
-    @property
-    def edge_contact(self) -> bool:
-        return any(p.edge_contact for p in self.positions)
-
-    @property
-    def pitch(self) -> tuple[LoadedPosition, ...]:
-        """One pitch of positions, the first not twice; all there are where the cycle was cut short."""
-        return self.positions[: self.per_pitch]
-
-    @property
-    def contact_ratio(self) -> float:
-        """Contact ratio under load: the mean number of pairs that touch."""
-        return float(np.mean([len(p.pairs) for p in self.pitch]))
-
-    def harmonics(self, count: int = 4) -> Array:
-        """Amplitudes (count,) of the tooth mesh's harmonics in the transmission error under load, rad."""
-        made = np.full(count, np.nan)
-        if len(self.positions) >= self.per_pitch:
-            own = self.transmission_error[: self.per_pitch]
-            found = 2.0 * np.abs(np.fft.rfft(own)) / len(own)
-            made[: min(count, len(found) - 1)] = found[1 : count + 1]
-        return made
-
-    @cached_property
-    def faults(self) -> tuple[str, ...]:
-        """What is wrong with these results, in words."""
-        at_edges = [p for p in self.positions if p.edge_contact]
-        names = sorted(
-            {p.edge for at in at_edges for p in at.pairs if p.edge_pressure > at.max_pressure}
-        )
-        words = list(dict.fromkeys(p.outcome.value for p in self.positions if p.outcome.value))
-        where = f"{self.torque * 1e-3:g} N m"
-        if self.max_pressure == 0.0:
-            words.append("The contact has left the flanks: edges bear all of the load.")
-        elif at_edges:
-            words.append(
-                f"Edge contact ({', '.join(names)}) at {len(at_edges)} of {len(self.positions)} positions: more "
-                "relief or crowning, or less torque; pressure at an edge is not reported as the greatest."
-            )
-        if any(p.open_window for p in self.positions):
-            words.append(
-                "A contact did not fit its cells' window; its pressure is not to be trusted."
-            )
-        return tuple(f"At {where}: {w}" for w in words)
 
 
 @dataclass(frozen=True, eq=False)
@@ -237,10 +77,20 @@ def loaded_contact(
 
     unloaded, teeth, found = attempt(first)
     for count in more:
-        wanted = any(at.outcome is Outcome.MORE_PAIRS for case in found for at in case.positions)
-        if not wanted or not _complete(found, per_pitch):
+        if not any(needs_more(case) for case in found) or not _complete(found, per_pitch):
             break
         unloaded, teeth, found = attempt(count)
+    with suppress(KeyboardInterrupt):  # what is solved is kept without its explanation
+        if any(needs_more(case) for case in found):
+            wide = found if pairs is None else attempt(PAIRS[-1])[-1]
+            found = tuple(
+                replace(case, pairs_needed=pairs_needed(w)) if needs_more(case) else case
+                for case, w in zip(found, wide, strict=True)
+            )
+        gone = [case for case in found if has_left_at(case)]
+        if gone:
+            torque = leaves_at(unloaded, teeth, gone[0], progress)
+            found = tuple(replace(c, leaves_at=torque) if c in gone else c for c in found)
     return LoadedContact(pair, direction, unloaded, teeth, found, _complete(found, per_pitch))
 
 
@@ -318,6 +168,8 @@ def _position(
             on_wheel += force @ other
             wheel_torque += float(p.wheel_lever @ force)
     outcome = found.outcome
+    if outcome is Outcome.OK and has_left(found):
+        outcome = Outcome.LEFT_FLANKS
     if outcome is Outcome.OK and any(abs(load.pair) == half for load in loads):
         outcome = Outcome.MORE_PAIRS
     motions = teeth.bearings.pinion @ on_pinion, teeth.bearings.wheel @ on_wheel
@@ -338,25 +190,20 @@ def _position(
     )
 
 
-def _spline_range(values: Array) -> float:
-    """Greatest less least of a periodic cubic spline through even steps of a period."""
-    line = CubicSpline(np.arange(len(values) + 1), np.append(values, values[0]), bc_type="periodic")
-    turns = line.derivative().roots(extrapolate=False)
-    return float(np.ptp(np.concatenate([values, line(turns[np.isfinite(turns)])])))
-
-
 def _pair_load(p: Patch, force: Array, torque: float, teeth: Teeth) -> PairLoad:
     pressure = force / p.area
-    inner = p.edge > EDGE
+    apart, name = nearest_edge(p, force)
+    inner = apart > EDGE
     peak, sharp = int(pressure.argmax()), int(np.where(inner, 0.0, pressure).argmax())
     return PairLoad(
         pair=p.meeting.pair,
         share=float(p.pinion_lever @ force) / torque,
         force=float(force.sum()),
         max_pressure=greatest(p, pressure, inner),
+        tip_pressure=float(pressure[inner & on_arcs(p)].max(initial=0.0)),
         edge_pressure=float(pressure[~inner].max(initial=0.0)),
         edge_force=float(force[~inner].sum()),
-        edge=EDGES[p.edge_name[sharp]] if not inner[sharp] and force[sharp] > 0.0 else "",
+        edge=EDGES[name[sharp]] if not inner[sharp] and force[sharp] > 0.0 else "",
         place=(float(p.pinion_place[0][peak]), float(p.pinion_place[1][peak])),
         distance=p.pinion_place[0],
         height=p.pinion_place[1],

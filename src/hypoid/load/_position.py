@@ -11,6 +11,7 @@ import numpy as np
 from ._active_set import ContactSolution, Outcome, solve_contact
 from ._cells import Cells, Teeth, compliance, parts
 from ._patch import COLUMNS, ROWS, Meeting, Patch, Window, patch
+from ._strips import bearing, deeper, with_strips
 
 Array = np.ndarray[Any, Any]
 TRIES = 14  # windows that are tried
@@ -37,14 +38,8 @@ class Guess:
         """Cells (n,) of a patch that are thought to touch: by their places, or those with the least gaps."""
         if self.touching is None:
             return p.gap <= np.quantile(p.gap, FILLED)
-        there = np.ones(p.count, dtype=bool)
-        index: list[Array] = []
-        ends = (self.window.along, self.window.across)
-        for axis, ((low, high), count) in enumerate(zip(ends, self.touching.shape, strict=True)):
-            place = np.floor((p.plane[:, axis] - low) / (high - low) * count).astype(int)
-            there &= (place >= 0) & (place < count)
-            index.append(np.clip(place, 0, count - 1))
-        return there & self.touching[index[0], index[1]]
+        there, index = _places(self.window, p.plane, self.touching.shape)
+        return there & self.touching[index]
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,6 +55,16 @@ class PositionContact:
     def parts(self) -> tuple[slice, ...]:
         """Which cells of the solution are each patch's."""
         return parts(self.patches)
+
+    @property
+    def bounded_by_edges(self) -> float:
+        """Share of the contacts' outlines where flanks end rather than part, by the pairs' forces."""
+        shares = [
+            _bounded_by_edges(p, self.solution.force[part])
+            for p, part in zip(self.patches, self.parts, strict=True)
+        ]
+        total = float(self.solution.force.sum())
+        return sum(share * force for share, force in shares) / total if total > 0.0 else 0.0
 
     @property
     def guesses(self) -> dict[int, Guess]:
@@ -112,7 +117,7 @@ def position_contact(
             if (after := _moved(p, solution.force[part])) is not None
         }
         if not moved and not late:
-            return PositionContact(patches, solution, Outcome.OK, False)
+            return _at_tips(PositionContact(patches, solution, Outcome.OK, False), used, torque)
         for m in late:
             cells[m.pair] = Cells(patch(m, known[m.pair].window), teeth)
         for p in patches:
@@ -124,10 +129,79 @@ def position_contact(
     return found
 
 
+def _at_tips(found: PositionContact, cells: Sequence[Cells], torque: float) -> PositionContact:
+    """The same contact with strips of cells where rounded tips bear, as deep as these need to be."""
+    modulus = cells[0].teeth.plane_modulus
+    depths = {
+        i: found_there
+        for i, (p, part) in enumerate(zip(found.patches, found.parts, strict=True))
+        if (found_there := bearing(p, found.solution.force[part] / p.area, modulus))
+    }
+    changed = set(depths)
+    now, blocks = list(cells), dict[tuple[int, int], Array]()
+    for _ in range(TRIES):
+        if not changed or found.outcome is not Outcome.OK:
+            break
+        # all are made before any is let go: `blocks` knows them by their ids
+        now = [
+            Cells(with_strips(cells[i].patch, depths[i]), c.teeth) if i in changed else c
+            for i, c in enumerate(now)
+        ]
+        patches = tuple(c.patch for c in now)
+        blocks = {k: v for k, v in blocks.items() if {*k} <= {id(c) for c in now}}
+        guesses = found.guesses
+        solution = solve_contact(
+            compliance(now, blocks),
+            np.concatenate([p.gap for p in patches]),
+            np.concatenate([p.pinion_lever for p in patches]),
+            torque,
+            np.concatenate([guesses[p.meeting.pair].start(p) for p in patches]),
+        )
+        found = PositionContact(patches, solution, solution.outcome, False)
+        changed = set()
+        for i, part in enumerate(found.parts):
+            if i in depths and (better := deeper(patches[i], solution.force[part], depths[i])):
+                depths[i] = {**depths[i], **better}
+                changed.add(i)
+    return found
+
+
 def _guess(p: Patch, force: Array) -> Guess:
     touching = np.zeros(p.on.shape, dtype=bool)
-    touching[p.on] = force > 0.0
+    there, (column, row) = _places(p.window, p.plane, p.on.shape)
+    loaded = there & (force > 0.0)
+    touching[column[loaded], row[loaded]] = True
     return Guess(p.window, touching if touching.any() else None)
+
+
+def _bounded_by_edges(p: Patch, force: Array) -> tuple[float, float]:
+    """Share of one contact's outline that lies on edges of the flanks, and its force, N."""
+    there, (column, row) = _places(p.window, p.plane, p.on.shape)
+    flanks, touching = np.zeros((2, *(n + 2 for n in p.on.shape)), dtype=bool)
+    flanks[column[there] + 1, row[there] + 1] = True
+    there &= force > 0.0
+    touching[column[there] + 1, row[there] + 1] = True
+    on_edges, whole = 0.0, 0.0
+    for axis, length in enumerate(p.size[::-1]):
+        for way in (-1, 1):
+            ends = touching & ~np.roll(touching, way, axis)
+            whole += length * np.count_nonzero(ends)
+            on_edges += length * np.count_nonzero(ends & ~np.roll(flanks, way, axis))
+    return (on_edges / whole if whole else 0.0), float(force.sum())
+
+
+def _places(
+    window: Window, plane: Array, shape: tuple[int, ...]
+) -> tuple[Array, tuple[Array, Array]]:
+    """Which of the places (n, 2) lie in a window, and the column and row (n,) of its grid they are in."""
+    there = np.ones(len(plane), dtype=bool)
+    index: list[Array] = []
+    ends = (window.along, window.across)
+    for axis, ((low, high), count) in enumerate(zip(ends, shape, strict=True)):
+        place = np.floor((plane[:, axis] - low) / (high - low) * count).astype(int)
+        there &= (place >= 0) & (place < count)
+        index.append(np.clip(place, 0, count - 1))
+    return there, (index[0], index[1])
 
 
 def _first_window(met: Meeting, teeth: Teeth, torque: float) -> Window:

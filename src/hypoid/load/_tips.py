@@ -2,12 +2,12 @@
 
 With b the angle between the outward normals of flank and land and r the radius, the arc begins r tan(b/2) before the
 sharp edge would stand, and falls away from the flank by r - sqrt(r^2 - d^2) at d beyond that. The strip in which a
-loaded arc touches is narrower than usual cells are: the force on it is right, its pressure still moves with them.
+loaded arc touches is narrower than usual cells are: it gets its own (see `_strips`).
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
 
@@ -17,7 +17,30 @@ from hypoid.contact import AngleField, angle_field
 from hypoid.flank import Border, Flank
 
 Array = np.ndarray[Any, Any]
+ASTRAY = 0.05  # mm: a tip may bend so far from the straight line that it is taken for
 STEEPEST = np.radians(70.0)  # against the flank: where an arc is no longer looked at
+
+
+@dataclass(frozen=True, eq=False)
+class Arc:
+    """A rounded tip in the tangent plane of a contact, straight there."""
+
+    line: Array  # (3,) c0 + c1 along + c2 across: mm inside the sharp edge
+    angle: float  # between the outward normals of flank and land, rad
+    radius: float  # mm
+
+    @property
+    def start(self) -> float:
+        """Where the arc begins, mm inside the sharp edge."""
+        return self.radius * float(np.tan(0.5 * self.angle))
+
+    def apart(self, plane: Array) -> Array:
+        """How far (n,), mm, points (n, 2) of the plane lie inside the sharp edge."""
+        return self.line[0] + plane @ self.line[1:]
+
+    def falls_away(self, plane: Array) -> Array:
+        """How far (n,), mm, the arc lies below the flank at points (n, 2) of the plane."""
+        return falls_away(self.apart(plane), self.angle, self.radius)
 
 
 @lru_cache(maxsize=64)
@@ -27,7 +50,8 @@ def active_field(flank: Flank, rounding: float) -> AngleField:
     if not rounding > 0.0:
         return field
     tip = field.tip
-    return replace(field, tip=Border(float(tip.height) + rounding, float(tip.slope)))
+    beyond = rounding + ASTRAY
+    return replace(field, tip=Border(float(tip.height) + beyond, float(tip.slope)))
 
 
 def land_angle(flank: Flank, normal: Array, point: Array) -> Array:
