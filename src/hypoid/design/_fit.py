@@ -69,7 +69,7 @@ FLOOR = 0.05  # of the greatest residual, that every row counts with at least
 
 
 def evened(weight: Array, left: Array, greatest: float) -> Array:
-    """Weights (n,) of rows for another run, from what they left in the last: nearer to the least greatest [Lawson 1961]."""
+    """Weights (n,) of rows for another run, from what they left in the last [C. L. Lawson, 1961]."""
     made = weight * np.sqrt(np.abs(left) / greatest + FLOOR)
     return made / np.sqrt(np.mean(made**2))
 

@@ -177,4 +177,5 @@ def _angles(found: np.ndarray, pitch_angle: float) -> tuple[float, float]:
     along = sin(pitch_angle) * radial + cos(pitch_angle) * axial
     up = cos(pitch_angle) * radial - sin(pitch_angle) * axial
     sign = 1.0 if up > 0.0 else -1.0  # the root's side, not the way round, is what is not known
-    return asin(max(-1.0, min(1.0, sign * up))), atan2(abs(along), abs(around))
+    turned = along if around > 0.0 else -along  # zerol teeth may lean either way
+    return asin(max(-1.0, min(1.0, sign * up))), atan2(turned, abs(around))

@@ -30,7 +30,10 @@ CORNER_SPREAD = 0.1  # mm, of one corner of a slot that one cutter cuts
 ROOT_PLACES = 3  # toe, mean point, heel
 ROOT_ROLLS = (0.0, -0.25, 0.25)  # rad about the flank's roll, to look for the root from
 EDGE_SPREAD = 0.02  # mm, by which a place may fall short of the edge that is kept for the arc
-FAR = 5.0  # mm in the median off the conjugate: a start that met another sheet
+FAR = (
+    5.0,
+    2.0,
+)  # mm, or normal modules, in the median off the conjugate: a start that met another sheet
 
 
 @dataclass(frozen=True)
@@ -43,7 +46,7 @@ class Seen:
     ease_off: Array  # (n,) mm
     turn: float  # rad, from the conjugate to the flank at the middle, about the axis
     turn_slopes: Array  # its derivatives by every entry
-    folded: Array  # (n,) bool: places that came near undercut, or beyond it
+    folded: Array  # (n,) bool: places that went beyond undercut, to another sheet
 
 
 @dataclass(frozen=True)
@@ -117,7 +120,7 @@ class PinionModel:
             return None
         memory = (s, theta, phi, root[0], root[1])
         turn, turn_slopes = float(off[c.middle]), turned[:, c.middle]
-        folded = self.there & (sense / sense[c.middle] < FOLDING)
+        folded = self.there & (sense / sense[c.middle] < 0.0)
         return Seen(residual, jacobian, memory, ease_off, turn, turn_slopes, folded)
 
     def asked(self, target: Target, blank: PairBlank) -> PinionModel:
@@ -165,7 +168,7 @@ def pinion_model(
         return None
     off = got[3] - c.angle
     off = np.abs(off - off[c.middle]) * np.abs(c.lever)
-    if float(np.median(off[found])) > FAR:
+    if float(np.median(off[found])) > max(FAR[0], FAR[1] * blank.mean_normal_module):
         return None
     # a left-hand member turns its concave flanks to falling angles
     if got[5][c.middle] * outward < 0.0:

@@ -12,7 +12,10 @@ from ._flank import Flank
 
 @dataclass(frozen=True)
 class FlankAngles:
-    """Pressure angle against the pitch cone's normal and spiral angle against its generatrix, rad."""
+    """Pressure angle against the pitch cone's normal and spiral angle against its generatrix, rad.
+
+    The spiral angle is positive where the tooth leans to its member's hand, as zerol teeth do on one flank alone.
+    """
 
     pressure: float
     spiral: float
@@ -27,4 +30,5 @@ def flank_angles(flank: Flank, distance: float | None = None, height: float = 0.
     radial, around = (x * nx + y * ny) / rho, (x * ny - y * nx) / rho
     sine, cosine = float(flank.cone.sine), float(flank.cone.cosine)
     along, up = sine * radial + cosine * nz, cosine * radial - sine * nz
-    return FlankAngles(float(np.arcsin(up)), float(np.arctan2(abs(along), abs(around))))
+    turned = along * np.sign(around) * (-1.0 if flank.mirrored else 1.0)
+    return FlankAngles(float(np.arcsin(up)), float(np.arctan2(turned, abs(around))))
