@@ -142,6 +142,7 @@ def conjugate(blank: PairBlank, wheel: Flank, pinion_cone: PitchCone) -> Conjuga
     z, rho, angle, lever, discriminant, roll = found[int(np.argmin(scores))]
     cone_distance, cone_height = pinion_cone.cone_distance_height(z, rho)
     there = points.ok & (points.piece == wheel.cut_pieces.index("flank"))  # not its fillet
+    there &= ~points.other
     there &= (discriminant > 0.0) & np.isfinite(z)
     own = blank.pinion
     there &= (cone_distance > own.inner_cone_distance) & (cone_distance < own.outer_cone_distance)

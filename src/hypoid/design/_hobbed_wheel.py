@@ -170,7 +170,7 @@ def hobbed_wheel(request: HobbedRequest, blank: PairBlank) -> HobbedWheel:
     flanks = hobbed_flanks(
         own, pitch_cone(blank, "wheel"), cut.settings, head, reach, starts=cut.turns
     )
-    if not all(flank.generated for flank in flanks.values()):
+    if not all(math.isfinite(flank.active_chart.error) for flank in flanks.values()):
         raise DesignError([_no_wheel(request)])
     return HobbedWheel(cut, plan, slots, edges, edge, deeper, head, flanks)
 

@@ -122,11 +122,11 @@ def milled_wheel(request: MilledRequest, blank: PairBlank) -> MilledWheel:
         edge = _on_land(edge, cut) if asked_edge is None else asked_edge
         settings, flanks = _flanks(blank, cut, height, edge, generated)
     concave, convex = flanks
-    if not (concave.generated and convex.generated):
+    if not all(math.isfinite(flank.active_chart.error) for flank in flanks):
         beta = math.degrees(own.mean_spiral_angle)
         given = f'"{request.wheel_method}" at a spiral angle of {beta:.3g} deg'
         expected = (
-            "a wheel that is not undercut between toe and heel: form cut it, or lower the depth or "
+            "a wheel whose flanks undercut leaves standing from toe to heel: form cut it, or lower the depth or "
             "the taper"
         )
         raise DesignError([Problem("wheel.method", given, expected, 'method = "formate"')])

@@ -46,7 +46,7 @@ class Seen:
     ease_off: Array  # (n,) mm
     turn: float  # rad, from the conjugate to the flank at the middle, about the axis
     turn_slopes: Array  # its derivatives by every entry
-    folded: Array  # (n,) bool: places that went beyond undercut, to another sheet
+    upright: Array  # (n,) 1 at the mean point, 0 at undercut, less on another sheet; infinite where nothing counts
 
 
 @dataclass(frozen=True)
@@ -120,8 +120,8 @@ class PinionModel:
             return None
         memory = (s, theta, phi, root[0], root[1])
         turn, turn_slopes = float(off[c.middle]), turned[:, c.middle]
-        folded = self.there & (sense / sense[c.middle] < 0.0)
-        return Seen(residual, jacobian, memory, ease_off, turn, turn_slopes, folded)
+        upright = np.where(self.there, sense / sense[c.middle], np.inf)
+        return Seen(residual, jacobian, memory, ease_off, turn, turn_slopes, upright)
 
     def asked(self, target: Target, blank: PairBlank) -> PinionModel:
         """The same flank with another target."""

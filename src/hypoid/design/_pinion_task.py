@@ -27,7 +27,7 @@ from ._pinion_methods import (
     entries_of,
     step_limits,
 )
-from ._pinion_model import ROOT_PLACES, PinionModel, Seen
+from ._pinion_model import FOLDING, ROOT_PLACES, PinionModel, Seen
 from ._settings_model import ANGLES, INDEX
 from ._target import Target
 
@@ -148,7 +148,8 @@ def run(
 ) -> Stage | None:
     """One stage: these entries free, with these wishes beside the blades'; None where none can be looked at.
 
-    Places that fold on the way are of another sheet from there on: they are left out, and the stage goes on.
+    Places that fold on the way are of another sheet from there on: they are left out, and the stage goes on. So are
+    those near undercut, which hold the others up, while the tolerance is not met.
     """
     joint = len(stage.models) > 1
     wishes = {**_blade_wishes(task, stage), **more}
@@ -162,10 +163,11 @@ def run(
         if found is None:
             return None
         stage = Stage(stage.models, found.vectors, found.fit.look.memory, found)
-        if left == 1 or not any(look.folded.any() for look in found.looks):
+        least = 0.0 if stage.largest <= task.request.tolerance else FOLDING
+        if left == 1 or not any((look.upright < least).any() for look in found.looks):
             return stage
         pairs = zip(stage.models, found.looks, strict=True)
-        models = tuple(replace(m, there=m.there & ~look.folded) for m, look in pairs)
+        models = tuple(replace(m, there=m.there & (look.upright >= least)) for m, look in pairs)
         if any(model.count < FEWEST for model in models):
             return stage
         stage = replace(stage, models=models, fit=None)
