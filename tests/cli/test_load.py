@@ -117,7 +117,8 @@ def test_a_report_tells_what_is_wrong_with_its_load_before_it_computes(hypoid: A
 def test_an_interrupt_of_the_real_command_keeps_finished_positions(tmp_path: Path) -> None:
     """SIGINT in the second position: status 130, JSON with those done, and nothing else on standard output.
 
-    In the second, as the first is kept only once its torques are all done.
+    In the second, as the first is kept only once its torques are all done. Where tests run in the background SIGINT is
+    ignored, and so would the command do: it is told to listen.
     """
     words = [
         "load",
@@ -131,7 +132,8 @@ def test_an_interrupt_of_the_real_command_keeps_finished_positions(tmp_path: Pat
         "--json",
     ]
     code = (
-        "import sys; from hypoid.cli import main; import hypoid.load._loaded as l, os, signal\n"
+        "import sys; from hypoid.cli import main; import hypoid.load._loaded as l, signal\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
         "made = l._position\n"
         "def position(*given):\n"
         "    found = made(*given)\n"

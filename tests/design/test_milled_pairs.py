@@ -90,10 +90,10 @@ def test_tsay_1993_meshes_only_when_corrected() -> None:
     corrected = unloaded_contact(pair_of("tsay-lin-1993"), "drive")
     assert len(corrected.on_path) > 20
     assert corrected.peak_to_peak * ARCSEC < 60.0
-    for direction in ("drive", "coast"):
+    for direction, least in (("drive", 250.0), ("coast", 1000.0)):
         contact = unloaded_contact(pair_of("tsay-lin-1993-as-printed"), direction)  # type: ignore[arg-type]
         assert contact.edge_contact
-        assert contact.peak_to_peak * ARCSEC > 1000.0
+        assert contact.peak_to_peak * ARCSEC > least
 
 
 def test_formate_root_angle_is_not_the_machine_root_angle() -> None:

@@ -321,18 +321,16 @@ class _Work:
         more: Mapping[str, Wish],
         limits: Mapping[str, float],
     ) -> tuple[Array, Fit]:
-        """Where a fit ended, or nearer to the least greatest residual if squares keep more than the tolerance."""
-        best, least, model = (vector, fit), math.inf, self.model
+        """Where a fit ended, or nearer to the least greatest residual if that meets the tolerance, and it does not."""
+        squares, model = (vector, fit), self.model
         for _ in range(EVENED):
             seen = self.look(vector, {}, fit.look.memory)
             if seen is None:
                 break
             left = {side: seen.misfit[side][own.there] for side, own in model.sides.items()}
             greatest = max(float(np.abs(v).max()) for v in left.values())
-            if greatest < least:
-                best, least = (vector, fit), greatest
-            if least <= self.request.tolerance:
-                break
+            if greatest <= self.request.tolerance:
+                return vector, fit
             sides: dict[Side, SideModel] = {}
             for side, own in model.sides.items():
                 weight = own.weight.copy()
@@ -343,7 +341,7 @@ class _Work:
             if found is None:
                 break
             vector, fit = found
-        return best
+        return squares
 
     def result(
         self, vector: Array, fit: Fit, free: tuple[str, ...], limits: Mapping[str, float]

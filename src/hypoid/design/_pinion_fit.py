@@ -68,10 +68,10 @@ def _best(task: PinionTask, starts: Sequence[Callable[[], Stage | None]]) -> Sta
 
 
 def _evened(task: PinionTask, stage: Stage) -> Stage:
-    """The stage, or one nearer to the least greatest residual, where least squares keep more than the tolerance."""
-    best = stage
+    """The stage, or one nearer to the least greatest residual if that meets the tolerance and least squares do not."""
+    squares = stage
     for _ in range(EVENED):
-        if best.largest <= task.request.tolerance or stage.fit is None:
+        if stage.largest <= task.request.tolerance or stage.fit is None:
             break
         models = []
         for model, look in zip(stage.models, stage.fit.looks, strict=True):
@@ -80,14 +80,13 @@ def _evened(task: PinionTask, stage: Stage) -> Stage:
             models.append(replace(model, weight=weight))
         found = run(task, replace(stage, models=tuple(models), fit=None), task.free, _spread(task))
         if found is None:
-            break
+            return squares
         stage = found
-        best = min(best, stage, key=lambda s: s.largest)
-    if all((m.weight == 1.0).all() for m in best.models):
-        return best
-    plain = tuple(replace(m, weight=np.ones(len(m.weight))) for m in best.models)
-    seen = run(task, replace(best, models=plain, fit=None), task.free, _spread(task), steps=0)
-    return best if seen is None else seen
+    if stage is squares or stage.largest > task.request.tolerance:
+        return squares
+    plain = tuple(replace(m, weight=np.ones(len(m.weight))) for m in stage.models)
+    seen = run(task, replace(stage, models=plain, fit=None), task.free, _spread(task), steps=0)
+    return squares if seen is None else seen
 
 
 def _moved(task: PinionTask, stage: Stage) -> Stage:
