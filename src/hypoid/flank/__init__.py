@@ -6,7 +6,6 @@ from ._angles import flank_angles as flank_angles
 from ._chart import Border as Border
 from ._chart import Chart as Chart
 from ._chart import PitchCone as PitchCone
-from ._chart import chart as chart
 from ._chart import edge_line as edge_line
 from ._cut import best_way as best_way
 from ._cut import cut_flank as cut_flank

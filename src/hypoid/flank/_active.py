@@ -1,4 +1,4 @@
-"""Where an undercut flank begins, and the chart of what is left of it above that.
+"""Where an undercut flank begins: the floor of the chart of what is left of it.
 
 Along a cone distance the flank as it is cut is what removes most (design, section 2). Where that is another piece,
 or the other root of the meshing condition, the flank itself is cut away: there is nothing left that could touch.
@@ -14,7 +14,7 @@ from numpy.polynomial import chebyshev
 
 from hypoid.cutter import EdgePiece
 
-from ._chart import COLUMNS, Chart, Floor, chart, edge_line
+from ._chart import COLUMNS, Floor, edge_line
 from ._section import cut_points
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ def first_of(
     high: Array,
     wanted: Callable[[FlankPoints], Array],
 ) -> tuple[Array, Array]:
-    """Heights (n,) just below and at the first wanted points, at cone distances (n,), all mm.
+    """Heights (n,) just below and at the first point above which all are wanted, at cone distances (n,), all mm.
 
     The point at `low` counts as unwanted, that at `high` as wanted, whatever they are.
     """
@@ -50,8 +50,8 @@ def first_of(
     return low, high
 
 
-def above_undercut(flank: Flank, piece: EdgePiece) -> Chart | None:
-    """The chart of a flank's straight piece from where nothing else cuts deeper.
+def undercut_floor(flank: Flank, piece: EdgePiece) -> Floor | None:
+    """Where the chart of a flank's straight piece begins, so that nothing else cuts deeper above.
 
     None where nothing is left of it, or where coordinates run out before it ends.
     """
@@ -76,16 +76,4 @@ def above_undercut(flank: Flank, piece: EdgePiece) -> Chart | None:
         values, _, _ = cut_points(flank, *flank.cone.axial_radial(places, height))
         return values[6], values[7]
 
-    floor = Floor(lambda x: chebyshev.chebval(x, line), start)
-    made = chart(
-        flank.surface,
-        piece,
-        flank.cone,
-        flank.toe,
-        flank.heel,
-        flank.theta_start,
-        rooted=True,
-        tip=None if index or piece is not flank.pieces["flank"] else flank.tip,
-        floor=floor,
-    )
-    return made if np.isfinite(made.error) else None
+    return Floor(lambda x: chebyshev.chebval(x, line), start)

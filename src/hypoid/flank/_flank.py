@@ -15,8 +15,8 @@ from hypoid.cutter import EdgePiece
 from hypoid.geometry import horner, horner_line, on_unit
 from hypoid.machine import MachineSettings
 
-from ._active import above_undercut
-from ._chart import Border, Chart, PitchCone, chart, height_at
+from ._active import undercut_floor
+from ._chart import Border, Chart, Floor, PitchCone, chart, height_at
 from ._envelope import Surface
 from ._locate import curvatures, from_cutter, locate, locate_slowly
 from ._section import cut_points, roots
@@ -102,18 +102,24 @@ class Flank:
     def charts(self) -> Mapping[str, Chart]:
         """Charts of flank and fillet between toe and heel, made on first use."""
         return {
-            name: chart(
-                self.surface,
-                self.pieces[name],
-                self.cone,
-                self.toe,
-                self.heel,
-                self.theta_start,
-                rooted=name == "fillet",
-                tip=self.tip if name == self.cut_pieces[0] else None,
-            )
+            name: self._chart(self.pieces[name], rooted=name == "fillet", tip=self._tip_of(name))
             for name in self.cut_pieces
         }
+
+    def _chart(
+        self,
+        piece: EdgePiece,
+        *,
+        rooted: bool,
+        tip: Border | None = None,
+        floor: Floor | None = None,
+    ) -> Chart:
+        ends = self.toe, self.heel, self.theta_start
+        return chart(self.surface, piece, self.cone, *ends, rooted, tip, floor)
+
+    def _tip_of(self, name: str) -> Border | None:
+        """The tooth's tip, where a piece reaches it."""
+        return self.tip if name == self.cut_pieces[0] else None
 
     @cached_property
     def active_chart(self) -> Chart:
@@ -122,12 +128,13 @@ class Flank:
 
     def active_chart_of(self, piece: EdgePiece) -> Chart:
         """The same of another form of the flank's piece (without its relief, say)."""
-        whole = self.charts["flank"]
-        if piece is not self.pieces["flank"]:
-            whole = chart(
-                self.surface, piece, self.cone, self.toe, self.heel, self.theta_start, rooted=False
-            )
-        return whole if np.isfinite(whole.error) else above_undercut(self, piece) or whole
+        own = piece is self.pieces["flank"]
+        whole = self.charts["flank"] if own else self._chart(piece, rooted=False)
+        if np.isfinite(whole.error) or (floor := undercut_floor(self, piece)) is None:
+            return whole
+        tip = self._tip_of("flank") if own else None
+        left = self._chart(piece, rooted=True, tip=tip, floor=floor)
+        return left if np.isfinite(left.error) else whole
 
     @property
     def name(self) -> str:

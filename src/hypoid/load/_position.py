@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -96,16 +96,9 @@ def position_contact(
         used = [c for c in cells.values() if c.patch.count]
         if not used:
             break
-        patches = tuple(c.patch for c in used)
         blocks = {k: v for k, v in blocks.items() if {*k} <= {id(c) for c in used}}
-        solution = solve_contact(
-            compliance(used, blocks),
-            np.concatenate([p.gap for p in patches]),
-            np.concatenate([p.pinion_lever for p in patches]),
-            torque,
-            np.concatenate([known[p.meeting.pair].start(p) for p in patches]),
-        )
-        found = PositionContact(patches, solution, solution.outcome, True)
+        found = _contact(used, blocks, known, torque)
+        patches, solution = found.patches, found.solution
         if solution.outcome is not Outcome.OK:
             break
         known.update(found.guesses)
@@ -117,7 +110,7 @@ def position_contact(
             if (after := _moved(p, solution.force[part])) is not None
         }
         if not moved and not late:
-            return _at_tips(PositionContact(patches, solution, Outcome.OK, False), used, torque)
+            return _at_tips(replace(found, open_window=False), used, torque)
         for m in late:
             cells[m.pair] = Cells(patch(m, known[m.pair].window), teeth)
         for p in patches:
@@ -127,6 +120,24 @@ def position_contact(
         nothing = ContactSolution(np.zeros(0), 0.0, np.zeros(0), 0, Outcome.NO_CONTACT)
         return PositionContact((), nothing, Outcome.NO_CONTACT, False)
     return found
+
+
+def _contact(
+    cells: Sequence[Cells],
+    blocks: dict[tuple[int, int], Array],
+    known: Mapping[int, Guess],
+    torque: float,
+) -> PositionContact:
+    """Contact of these cells as they stand; `blocks` of compliance are kept for the next time."""
+    patches = tuple(c.patch for c in cells)
+    solution = solve_contact(
+        compliance(cells, blocks),
+        np.concatenate([p.gap for p in patches]),
+        np.concatenate([p.pinion_lever for p in patches]),
+        torque,
+        np.concatenate([known[p.meeting.pair].start(p) for p in patches]),
+    )
+    return PositionContact(patches, solution, solution.outcome, True)
 
 
 def _at_tips(found: PositionContact, cells: Sequence[Cells], torque: float) -> PositionContact:
@@ -147,20 +158,11 @@ def _at_tips(found: PositionContact, cells: Sequence[Cells], torque: float) -> P
             Cells(with_strips(cells[i].patch, depths[i]), c.teeth) if i in changed else c
             for i, c in enumerate(now)
         ]
-        patches = tuple(c.patch for c in now)
         blocks = {k: v for k, v in blocks.items() if {*k} <= {id(c) for c in now}}
-        guesses = found.guesses
-        solution = solve_contact(
-            compliance(now, blocks),
-            np.concatenate([p.gap for p in patches]),
-            np.concatenate([p.pinion_lever for p in patches]),
-            torque,
-            np.concatenate([guesses[p.meeting.pair].start(p) for p in patches]),
-        )
-        found = PositionContact(patches, solution, solution.outcome, False)
+        found = replace(_contact(now, blocks, found.guesses, torque), open_window=False)
         changed = set()
-        for i, part in enumerate(found.parts):
-            if i in depths and (better := deeper(patches[i], solution.force[part], depths[i])):
+        for i, (p, part) in enumerate(zip(found.patches, found.parts, strict=True)):
+            if i in depths and (better := deeper(p, found.solution.force[part], depths[i])):
                 depths[i] = {**depths[i], **better}
                 changed.add(i)
     return found
