@@ -151,9 +151,8 @@ def test_four_times_the_cells_change_little(
         (found.solution.force[part] / p.area).max()
         for p, part in zip(found.patches, found.parts, strict=True)
     ]
-    for module in ("_patch", "_position"):
-        monkeypatch.setattr(f"hypoid.load.{module}.COLUMNS", 50)
-        monkeypatch.setattr(f"hypoid.load.{module}.ROWS", 22)
+    monkeypatch.setattr("hypoid.load._patch.COLUMNS", 50)
+    monkeypatch.setattr("hypoid.load._patch.ROWS", 22)
     fine = position_contact([p.meeting for p in found.patches], loaded.teeth, 11e4, found.guesses)
     assert fine.solution.rotation == pytest.approx(found.solution.rotation, rel=3e-3)
     peaks = [

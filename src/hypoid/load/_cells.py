@@ -43,11 +43,15 @@ class Cells:
     teeth: Teeth
 
     @cached_property
-    def weights(self) -> tuple[Any, Any]:
-        """Weights (n, hats), sparse, of pinion's and wheel's hats."""
+    def weights(self) -> tuple[tuple[Array, Array], ...]:
+        """Of pinion and wheel, the hats (m,) that these cells lie under, and their weights (n, m)."""
+        found: list[tuple[Array, Array]] = []
         places = (self.patch.pinion_place, self.patch.wheel_place)
-        members = (self.teeth.pinion, self.teeth.wheel)
-        return tuple(m.hats.weights(*at) for m, at in zip(members, places, strict=True))  # pyright: ignore
+        for member, at in zip((self.teeth.pinion, self.teeth.wheel), places, strict=True):
+            whole = member.hats.weights(*at)
+            under = np.unique(whole.indices)
+            found.append((under, whole[:, under].toarray()))
+        return tuple(found)
 
     @cached_property
     def half_space(self) -> Array:
@@ -57,13 +61,14 @@ class Cells:
         x, y = p.plane[:whole].T
         cells = np.zeros((p.count, p.count))
         grid = regular_grid(columns, rows, *p.size)[np.ix_(on, on)] / self.teeth.plane_modulus
+        square = (x[:, None] - x) ** 2 + (y[:, None] - y) ** 2
         rest = np.zeros((p.count, len(p.cut)))
         if len(p.cut):
             rest = unlike(p.plane, p.plane, p.corners, p.flat, whole) / self.teeth.plane_modulus
         for member, lines in zip((self.teeth.pinion, self.teeth.wheel), p.lines, strict=True):
             weight = IMAGE / member.made_of.plane_modulus
             for line in lines:
-                grid += weight * mirrored_grid(x, y, line, *p.size)
+                grid += weight * mirrored_grid(x, y, line, *p.size, square)
                 if len(p.cut):
                     eye = mirrored(p.plane, line)
                     rest += weight * unlike(eye, p.plane, p.corners, p.flat, whole)
@@ -85,8 +90,11 @@ class Cells:
         here, there = self.patch.meeting.pair, other.patch.meeting.pair
         total = np.zeros((0, 0))
         members = (self.teeth.pinion, self.teeth.wheel)
-        for member, mine, others in zip(members, self.weights, other.weights, strict=True):
-            own = mine @ (others @ _between(member, here, there, self.teeth.sense).T).T
+        for member, (mine, weight), (others, by) in zip(
+            members, self.weights, other.weights, strict=True
+        ):
+            moved = _between(member, here, there, self.teeth.sense)[np.ix_(mine, others)]
+            own = weight @ (moved @ by.T)
             total = total + own if total.size else own
         bearings = self.teeth.bearings
         if not bearings.rigid:

@@ -2,13 +2,30 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from functools import wraps
+from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 from scipy.linalg import cholesky
 from scipy.linalg.blas import dtrsm  # pyright: ignore[reportAttributeAccessIssue]
+from threadpoolctl import ThreadpoolController
 
 Array = np.ndarray[Any, Any]
+P = ParamSpec("P")
+R = TypeVar("R")
+LIBRARIES: Any = ThreadpoolController()
+
+
+def on_one_thread(function: Callable[P, R]) -> Callable[P, R]:
+    """The function with BLAS on one thread: among Python's own steps, small matrices wait for its threads too long."""
+
+    @wraps(function)
+    def alone(*args: P.args, **kwargs: P.kwargs) -> R:
+        with LIBRARIES.limit(limits=1, user_api="blas"):
+            return function(*args, **kwargs)
+
+    return alone
 
 
 def factored(matrix: Array) -> Array:

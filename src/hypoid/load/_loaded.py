@@ -28,6 +28,7 @@ from ._position import EDGE, Guess, PositionContact, position_contact
 Array = np.ndarray[Any, Any]
 Progress = Callable[[str, int, int], None]
 FINE = 40  # positions a pitch of the unloaded contact, at least
+EASED = 2.0 / 3.0  # power of the torque by which the rotation is thought to rise at least
 GROWN = 2.0  # times: the most that a contact is thought to grow from one torque to the next
 
 
@@ -128,25 +129,44 @@ def solved_positions(
     step = unloaded.sampling.positions_per_pitch // per_pitch
     half = unloaded.sampling.pairs // 2
     start = len(unloaded.phi) // 2
-    before: list[dict[int, Guess]] = []  # of the last position, by torque
+    earlier: list[PositionContact] = []  # of the last position but one, and of the last, by torque
+    before: list[PositionContact] = []
     for k in range(per_pitch):
         at = start + k * step
         found = (meeting(unloaded, at, n) for n in range(-half, half + 1))
         meetings = [m for m in found if m is not None]
-        after: list[dict[int, Guess]] = []
-        row: list[LoadedPosition] = []
+        now: list[PositionContact] = []
         for t, torque in enumerate(torques):
-            guesses: dict[int, Guess] = {}
-            if before:
-                guesses = before[t]
-            elif t:
-                grown = min((torque / torques[t - 1]) ** (1.0 / 3.0), GROWN)
-                guesses = {n: g.scaled(grown) for n, g in after[-1].items()}
-            contact = position_contact(meetings, teeth, torque, guesses)
-            after.append(contact.guesses)
-            row.append(_position(unloaded, teeth, at, torque, contact))
-        before = after
-        yield row
+            contact = position_contact(
+                meetings, teeth, torque, *_expected(torques, t, now, before, earlier)
+            )
+            now.append(contact)
+        earlier, before = before, now
+        yield [
+            _position(unloaded, teeth, at, torque, contact)
+            for torque, contact in zip(torques, now, strict=True)
+        ]
+
+
+def _expected(
+    torques: Sequence[float],
+    t: int,
+    now: Sequence[PositionContact],
+    before: Sequence[PositionContact],
+    earlier: Sequence[PositionContact],
+) -> tuple[dict[int, Guess], float]:
+    """Where pairs are thought to touch, and the rotation (rad): as positions went on, else as torques rise."""
+    if before:
+        ago = earlier[t].guesses if earlier else {}
+        last = before[t]
+        return {n: g.after(ago.get(n)) for n, g in last.guesses.items()}, last.solution.rotation
+    if not t:
+        return {}, 0.0
+    rise = torques[t] / torques[t - 1]
+    grown = min(rise ** (1.0 / 3.0), GROWN)
+    return {n: g.scaled(grown) for n, g in now[-1].guesses.items()}, now[
+        -1
+    ].solution.rotation * rise**EASED
 
 
 def _position(

@@ -56,20 +56,32 @@ def mirrored(place: Array, line: Array) -> Array:
     return place - 2.0 * apart[:, None] * square
 
 
-def mirrored_grid(x: Array, y: Array, line: Array, width: float, height: float) -> Array:
+def mirrored_grid(
+    x: Array, y: Array, line: Array, width: float, height: float, square: Array | None = None
+) -> Array:
     """Integrals of 1/r (mm) at cells' middles (n,) of all cells' images beyond a straight line, symmetric (n, n).
 
-    The line is c0 + c1 x + c2 y = 0, positive on the cells' side.
+    The line is c0 + c1 x + c2 y = 0, positive on the cells' side; `square` (n, n) are the cells' own distances squared,
+    if they are known.
     """
-    there_x, there_y = mirrored(np.stack([x, y], axis=-1), line).T
+    place = np.stack([x, y], axis=-1)
+    there_x, there_y = mirrored(place, line).T
+    apart = (line[0] + place @ line[1:]) / np.hypot(*line[1:])
+    own = (x[:, None] - x) ** 2 + (y[:, None] - y) ** 2 if square is None else square
     # seen from an eye's image the cell itself is what its image is to the eye
-    dx, dy = there_x[:, None] - x, there_y[:, None] - y
-    away = dx * dx + dy * dy
-    near = np.nonzero(away < (NEAR * max(width, height)) ** 2)
-    away[near] = 1.0
-    seen = width * height / np.sqrt(away)
-    seen[near] = rectangle(dx[near], dy[near], width, height)
-    return 0.5 * (seen + seen.T)
+    away = np.multiply.outer(4.0 * apart, apart)
+    away += own
+    reach = (NEAR * max(width, height)) ** 2
+    near = np.nonzero(away < reach) if 4.0 * (apart * apart).min(initial=reach) < reach else None
+    if near is not None:
+        away[near] = 1.0
+    np.sqrt(away, out=away)
+    np.divide(width * height, away, out=away)
+    if near is not None and len(near[0]):
+        i, j = near
+        way = (there_x[i] - x[j], there_y[i] - y[j]), (there_x[j] - x[i], there_y[j] - y[i])
+        away[near] = 0.5 * sum(rectangle(*d, width, height) for d in way)
+    return away
 
 
 def polygon(eye: Array, corners: Array) -> Array:

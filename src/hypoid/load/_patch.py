@@ -202,6 +202,8 @@ def meeting(contact: UnloadedContact, position: int, pair: int) -> Meeting | Non
     gap = (float(rigid) - float(contact.curve[own])) * float(levers[1][0])
     turn, curvature = _curvature(rough, contact.pinion_flank)
     c, s = np.cos(turn), np.sin(turn)
+    if c * axes[0, 2] + s * axes[1, 2] < 0.0:  # always the same way, as the positions go on
+        c, s = -c, -s
     axes = np.array([c * axes[0] + s * axes[1], c * axes[1] - s * axes[0], out])
     return Meeting(
         contact, pair, phi, float(rigid), origin, axes, curvature, gap, float(levers[0][0])
@@ -236,6 +238,11 @@ class Window:
 
     along: tuple[float, float]
     across: tuple[float, float]
+
+    @property
+    def ends(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Both of them."""
+        return self.along, self.across
 
     def scaled(self, by: float) -> Window:
         """The same about its own middle, `by` times as long and wide."""
