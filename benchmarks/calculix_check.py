@@ -88,13 +88,17 @@ def main() -> None:
     given.add_argument("--folder", type=Path, required=True)
     given.add_argument("--torque", default="30 N m")
     given.add_argument("--elements", default="8,5,2,2,1,1", help="as the fields of Elements")
+    given.add_argument("--design", type=Path, default=EXAMPLE)
+    given.add_argument("--finer", type=int, default=1, help="elements for one where pairs bear")
     given.add_argument("--teeth", type=int, default=5)
     given.add_argument("--keep", type=Path, help="a JSON file for the answer")
     asked = given.parse_args()
-    pair = hypoid.read(EXAMPLE)
+    pair = hypoid.read(asked.design)
     sizes = Elements(*map(int, asked.elements.split(",")))
     torque = parse(asked.torque, "torque")
-    model = contact_model(pair, "drive", torque, teeth=asked.teeth, elements=sizes)
+    model = contact_model(
+        pair, "drive", torque, teeth=asked.teeth, elements=sizes, finer=asked.finer
+    )
     spent = solved(model, asked.folder)
     theirs = read_contact(asked.folder / "contact.dat", model)
     if asked.keep is not None:

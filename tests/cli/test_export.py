@@ -270,9 +270,16 @@ def test_names_that_no_file_can_have_are_refused(export: Any, tmp_path: Path) ->
 def test_contact_model_that_cannot_be_is_told_all_at_once(export: Any, tmp_path: Path) -> None:
     target = str(tmp_path / "contact.txt")
     words = ("--calculix", target, "--member", "wheel", "--torque=-110 N m", "--position", "12 mm")
-    status, _, err = export(EXAMPLE, *words, "--poissons-ratio", "0.5")
+    status, _, err = export(EXAMPLE, *words, "--poissons-ratio", "0.5", "--finer", "0")
     assert status == 2
-    told = ("ends in .inp", "--direction coast", "pinion and wheel", "--position", "less than 0.5")
+    told = (
+        "ends in .inp",
+        "--finer 4",
+        "--direction coast",
+        "pinion and wheel",
+        "--position",
+        "less than 0.5",
+    )
     for words in told:
         assert words in err
     status, _, err = export(EXAMPLE, "--calculix", str(tmp_path / "contact.inp"))

@@ -15,7 +15,7 @@ import pytest
 
 from hypoid.contact import Sampling, angle_field, unloaded_contact
 from hypoid.geometry import DesignError
-from hypoid.io import read_contact, write_contact
+from hypoid.io import contact_text, read_contact, write_contact
 from hypoid.load import (
     ContactAnswer,
     ContactModel,
@@ -30,7 +30,7 @@ from hypoid.load import (
 )
 from hypoid.load._contact_model import PAIRS, PER_PITCH, _lead, _mesh, _placed
 from hypoid.pair import Direction, GearPair
-from hypoid.solid import hex_mesh
+from hypoid.solid import face_nodes, hex_mesh
 
 TORQUE = 30e3  # N mm: three pairs bear
 KEPT = Path(__file__).parent / "calculix_contact.json"
@@ -104,6 +104,42 @@ def test_too_small_a_sector_and_bad_input_are_told(
     with pytest.raises(DesignError) as told:
         contact_model(relief_pair, "drive", -1.0, teeth=0, position=2.0)
     assert [p.path for p in told.value.problems] == ["torque", "position", "teeth"]
+
+
+def test_finer_elements_stand_where_pairs_bear(
+    relief_pair: GearPair,
+    model: ContactModel,
+    drive_teeth: tuple[ToothCompliance, ToothCompliance],
+) -> None:
+    """On the exact flank, but for nodes that hang on large elements; the rest of the model is as it was."""
+    finer = contact_model(
+        relief_pair, "drive", TORQUE, teeth=5, elements=ROUGH, finer=3, compliance=drive_teeth
+    )
+    assert (finer.guess, finer.elements) == (model.guess, model.elements)
+    faces = {met.pair: met for met in finer.pairs}
+    for met in model.pairs:
+        if met.pair not in (-1, 0, 1):
+            assert len(faces[met.pair].wheel_faces) == len(met.wheel_faces)
+    for mesh, flank, split in zip(
+        (finer.pinion, finer.wheel), relief_pair.mates("drive"), finer.split, strict=True
+    ):
+        assert split is not None
+        member = "pinion_faces" if flank is relief_pair.mates("drive")[0] else "wheel_faces"
+        for pair in (-1, 0, 1):
+            own = getattr(faces[pair], member)
+            assert split.split[own[:, 0]].all()
+            nodes = np.setdiff1d(face_nodes(mesh.elements, own), split.hung)
+            x, y, z = mesh.nodes[nodes].T
+            exact = flank.at(z, np.hypot(x, y))
+            turn = np.arctan2(y, x) - np.arctan2(exact.position[:, 1], exact.position[:, 0])
+            away = turn - mesh.pitch * np.round(turn / mesh.pitch)
+            there = exact.ok  # by rounding some stand above the tip
+            assert there.mean() > 0.9
+            assert np.abs(away * np.hypot(x, y))[there].max() < 1e-9
+    text = contact_text(finer)
+    assert text.count("*EQUATION") == 2
+    with pytest.raises(DesignError, match="finer"):
+        contact_model(relief_pair, "drive", TORQUE, finer=0, compliance=drive_teeth)
 
 
 def test_what_is_no_finished_run_is_told(model: ContactModel, tmp_path: Path) -> None:

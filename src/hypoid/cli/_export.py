@@ -47,6 +47,7 @@ def export(
     direction: Direction = "drive",
     position: Annotated[str, Signed] = "0 deg",
     mesh: Mesh = "coarse",
+    finer: int = 1,
     youngs_modulus: str = "206 GPa",
     poissons_ratio: float = 0.3,
     json: AsJson = False,
@@ -91,6 +92,8 @@ def export(
         Pinion angle: "12 deg".
     mesh
         How fine its elements are.
+    finer
+        Elements for one across the flanks where pairs bear: contacts are narrower than usual elements.
     youngs_modulus
         Of both members.
     poissons_ratio
@@ -109,7 +112,9 @@ def export(
         if bore is not None:
             expected = "none: bodies of a contact model are the design's"
             problems.append(Problem("--bore", f'"{bore}"', expected, 'bore_diameter = "40 mm"'))
-        asked = contact_request(torque, direction, position, *material, mesh, member, problems)
+        asked = contact_request(
+            torque, direction, position, *material, mesh, finer, member, problems
+        )
     elif torque is not None:
         problems.append(
             Problem(

@@ -30,6 +30,7 @@ class ContactRequest:
     position: float
     made_of: Any
     mesh: Mesh
+    finer: int
 
 
 def contact_request(
@@ -39,6 +40,7 @@ def contact_request(
     youngs_modulus: str,
     poissons_ratio: float,
     mesh: Mesh,
+    finer: int,
     member: str,
     problems: list[Problem],
 ) -> ContactRequest:
@@ -57,13 +59,15 @@ def contact_request(
         example = f'--direction {other} --torque "{(torque or "").strip().lstrip("-− ")}"'
         problems.append(Problem("--torque", f'"{torque}"', expected, example))
     angle = _read("--position", position, "angle", problems)
+    if finer < 1:
+        problems.append(Problem("--finer", str(finer), "1 or more elements for one", "--finer 4"))
     modulus = _read("--youngs-modulus", youngs_modulus, "stress", problems)
     made_of = STEEL
     try:
         made_of = material("--", modulus, poissons_ratio)
     except DesignError as error:
         problems += error.problems
-    return ContactRequest(value, direction, angle, made_of, mesh)
+    return ContactRequest(value, direction, angle, made_of, mesh, finer)
 
 
 def _read(option: str, text: str, kind: Any, problems: list[Problem]) -> float:
@@ -95,6 +99,7 @@ def write_model(
                 teeth=teeth,
                 made_of=asked.made_of,
                 elements=MESHES[asked.mesh],
+                finer=asked.finer,
                 progress=progress,
             )
     except DesignError as error:

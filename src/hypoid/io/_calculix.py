@@ -15,6 +15,7 @@ import numpy as np
 
 from hypoid.geometry import DesignError, Problem
 from hypoid.load import ContactAnswer, ContactModel, contact_answer
+from hypoid.solid import SplitMesh
 
 from ._hex_files import listed, numbered
 from ._write import write_text
@@ -75,7 +76,24 @@ def _bodies(model: ContactModel) -> Iterator[str]:
     yield f"{model.made_of.youngs_modulus:.10g}, {model.made_of.poissons_ratio:.10g}"
     yield "*SOLID SECTION, ELSET=pinion, MATERIAL=gear"
     yield "*SOLID SECTION, ELSET=wheel, MATERIAL=gear"
+    for divided, n in zip(model.split, first, strict=True):
+        if divided is not None:
+            yield from _equations(divided, n)
     yield f"*RIGID BODY, NSET=hub, REF NODE={turning}, ROT NODE={rotation}"
+
+
+def _equations(split: SplitMesh, after: int) -> Iterator[str]:
+    """Nodes, counted from `after` on, that move with others."""
+    yield "*EQUATION"
+    for node, on, share in zip(split.hung.tolist(), split.on, split.share, strict=True):
+        there = np.flatnonzero(share)
+        others = list(zip((on[there] + after + 1).tolist(), (-share[there]).tolist(), strict=True))
+        for direction in (1, 2, 3):
+            terms = [(node + after + 1, 1.0), *others]
+            yield f"{len(terms)}"
+            for k in range(0, len(terms), 4):
+                part = (f"{n}, {direction}, {v:.15g}" for n, v in terms[k : k + 4])
+                yield ", ".join(part)
 
 
 def _contact(model: ContactModel) -> Iterator[str]:
@@ -83,14 +101,19 @@ def _contact(model: ContactModel) -> Iterator[str]:
     after = len(model.pinion.elements)
     for met in model.pairs:
         for member, faces, e in (("p", met.pinion_faces, 0), ("w", met.wheel_faces, after)):
-            yield f"*SURFACE, NAME={_named(member, met.pair)}, TYPE=ELEMENT"
-            yield from map("%d, S%d".__mod__, map(tuple, (faces + np.array([e + 1, 1])).tolist()))
+            yield from _surface(_named(member, met.pair), faces, e)
     yield "*SURFACE INTERACTION, NAME=flanks"
     yield "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR"
     yield f"{STIFFNESS:.6g}"
     for met in model.pairs:
         yield "*CONTACT PAIR, INTERACTION=flanks, TYPE=SURFACE TO SURFACE"
         yield f"{_named('p', met.pair)}, {_named('w', met.pair)}"
+
+
+def _surface(name: str, faces: Array, after: int) -> Iterator[str]:
+    """Faces (k, 2) of elements that are counted from `after` on."""
+    yield f"*SURFACE, NAME={name}, TYPE=ELEMENT"
+    yield from map("%d, S%d".__mod__, map(tuple, (faces + np.array([after + 1, 1])).tolist()))
 
 
 def _steps(model: ContactModel) -> Iterator[str]:

@@ -11,19 +11,19 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from scipy import sparse
 
 from hypoid.contact import Misalignment, Sampling, UnloadedContact, to_pinion, unloaded_contact
 from hypoid.flank import Side
 from hypoid.geometry import DesignError, Problem
 from hypoid.pair import Direction, GearPair, Member
-from hypoid.solid import HexMesh, hex_mesh
+from hypoid.solid import HexMesh, SplitMesh, face_nodes, hex_mesh
 
 from ._bricks import stiffness
 from ._compliance import Elements, Support, ToothCompliance
+from ._contact_finer import finer_under
 from ._hats import Hats, _knots, shapes
 from ._material import STEEL, Material
-from ._patch import meeting
+from ._patch import Patch, meeting
 from ._position import Teeth, position_contact
 from ._setup import MESHES, pair_compliance
 from ._superelement import Progress
@@ -64,6 +64,8 @@ class ContactModel:
     turn: int  # +1 or -1: the sense about z in which the torque turns the pinion
     guess: float  # rad: about how far it turns
     elements: tuple[Elements, Elements]  # as they came out
+    hats: Hats  # of a wheel tooth, on these elements
+    split: tuple[SplitMesh | None, SplitMesh | None]  # of pinion and wheel, where some are split
     surface_error: tuple[float, float]  # mm, most by which faces stand off the exact flanks
 
 
@@ -114,6 +116,7 @@ def contact_model(
     teeth: int | None = None,
     made_of: Material = STEEL,
     elements: Elements | None = None,
+    finer: int = 1,
     supports: tuple[Support, Support] | None = None,
     misalignment: Misalignment | None = None,
     compliance: tuple[ToothCompliance, ToothCompliance] | None = None,
@@ -124,15 +127,17 @@ def contact_model(
     Without `teeth` one more either way than the pairs in contact, as `loaded_contact` finds them with `compliance`
     (coarse where not given). A member of which more than half would be asked for is taken whole: free cuts beside a
     loaded tooth give way. `elements` (the coarse ones by default) count as everywhere, but where the faces would stand
-    off the exact flank by more than a micrometre there are more along the face. Raises DesignError, with the number
-    needed where `teeth` are too few.
+    off the exact flank by more than a micrometre there are more along the face. Where pairs bear, `finer` smaller ones
+    stand for each across the flank's height, see `finer_under`. Raises DesignError, with the number needed where
+    `teeth` are too few.
     """
-    _check(pair, torque, position, teeth)
+    _check(pair, torque, position, teeth, finer)
     unloaded = unloaded_contact(
         pair, direction, misalignment, Sampling(positions_per_pitch=PER_PITCH, pairs=PAIRS)
     )
     known = compliance or pair_compliance(pair, direction, made_of, MESHES["coarse"], progress)
-    guess, first, last = _expected(unloaded, torque, position, known)
+    guess, reach = _expected(unloaded, torque, position, known)
+    first, last = min(reach), max(reach)
     needed = last - first + 1
     count = needed + 2 * BESIDE if teeth is None else teeth
     most = pair.wheel.teeth
@@ -154,11 +159,24 @@ def contact_model(
     pinion = replace(
         pinion, nodes=_turned(pinion.nodes, hands[0] * sense * centre[0] * pinion.pitch)
     )
-    placed = _placed(unloaded, position, wheel.nodes, sense * centre[1] * wheel.pitch)
     faces = [
         _faces_by_pair(mesh, flank.side, h * sense, c)
         for mesh, flank, h, c in zip((pinion, wheel), flanks, hands, centre, strict=True)
     ]
+    hats, _ = _knots(
+        wheel.nodes,
+        face_nodes(wheel.elements, faces[1][first])[:, :4],
+        pair.wheel.concave.cone,
+    )
+    parts: list[SplitMesh | None] = [None, None]
+    if finer > 1:
+        for i, (mesh, flank) in enumerate(zip((pinion, wheel), flanks, strict=True)):
+            ends = {k: by_member[i] for k, by_member in reach.items()}
+            divided, small = finer_under(mesh, flank, faces[i], ends, finer)
+            faces[i] = _faces_by_pair(divided.mesh, flank.side, hands[i] * sense, centre[i]) | small
+            parts[i] = divided
+        pinion, wheel = (part.mesh for part in parts if part is not None)
+    placed = _placed(unloaded, position, wheel.nodes, sense * centre[1] * wheel.pitch)
     facing = [k for k in range(-(PAIRS // 2), PAIRS // 2 + 1) if k in faces[0] and k in faces[1]]
     facing = [k for k in facing if np.isfinite(_lead(unloaded, position, k))]
     ways = supports or (Support(), Support())
@@ -180,6 +198,8 @@ def contact_model(
         turn=-sense * hands[0],  # drive turns a left-hand pinion backwards, see `Mounting`
         guess=guess,
         elements=(made[0][1], made[1][1]),
+        hats=hats,
+        split=(parts[0], parts[1]),
         surface_error=(made[0][2], made[1][2]),
     )
 
@@ -201,15 +221,12 @@ def contact_answer(
     matrix = stiffness(model.wheel_nodes, model.wheel.elements, model.made_of)
     force = (matrix @ wheel_moved.ravel()).reshape(-1, 3)
     found: list[PairAnswer] = []
-    distance = np.zeros(0)
     for met in model.pairs:
-        hats, gather = _hats(model, met)
-        distance = hats.distance
         moment, normal = loads[met.pair]
         if normal > 0.0:
-            on = gather @ force
+            on = _on_hats(model, met, force)
             size = np.linalg.norm(on, axis=1) * np.sign(on @ on.sum(axis=0))
-            grid = size.reshape(hats.height.shape)
+            grid = size.reshape(model.hats.height.shape)
             share = -model.turn * moment / model.torque
             peak = peaks.get(met.pair, 0.0)
             found.append(PairAnswer(met.pair, share, normal, peak, grid, grid.sum(axis=1)))
@@ -217,33 +234,23 @@ def contact_answer(
         rotation=model.turn * rotation,
         torque=model.turn * torque,
         pairs=tuple(found),
-        distance=distance,
+        distance=model.hats.distance,
         balance=sum(p.share for p in found) - 1.0,
     )
 
 
-def _hats(model: ContactModel, met: TeethInContact) -> tuple[Hats, Any]:
-    """Load hats of the wheel tooth of a pair, and what adds nodal forces (n, 3) up to theirs (hats, 3).
-
-    A bilinear hat is its corner's quadratic shape with half of those in the middle of the edges beside it.
-    """
-    mesh = model.wheel
-    faces = replace(mesh, face_sets={"teeth": met.wheel_faces}).face_nodes("teeth")
-    hats, number = _knots(mesh.nodes, faces[:, :4], model.gears.wheel.concave.cone)
-    rows, columns, values = [number.ravel()], [faces[:, :4].ravel()], [np.ones(number.size)]
-    for k in range(4):
-        for side in (k, (k + 1) % 4):
-            rows.append(number[:, side])
-            columns.append(faces[:, 4 + k])
-            values.append(np.full(len(faces), 0.5))
-    place = np.stack([np.concatenate(rows), np.concatenate(columns)])
-    (row, column), first = np.unique(place, axis=1, return_index=True)
-    value = np.concatenate(values)[first]
-    shape = (hats.count, len(mesh.nodes))
-    return hats, sparse.coo_array((value, (row, column)), shape=shape).tocsr()
+def _on_hats(model: ContactModel, met: TeethInContact, force: Array) -> Array:
+    """Forces (hats, 3) on the load hats of the wheel tooth of a pair, of nodal forces (n, 3)."""
+    mesh, split = model.wheel, model.split[1]
+    nodes = np.unique(face_nodes(mesh.elements, met.wheel_faces))
+    if split is not None:  # nodes that hang on others pass on inner forces
+        nodes = np.setdiff1d(nodes, split.hung)
+    x, y, z = mesh.nodes[nodes].T
+    place = model.gears.wheel.concave.cone.cone_distance_height(z, np.hypot(x, y))
+    return model.hats.weights(*(np.asarray(v) for v in place)).T @ force[nodes]
 
 
-def _check(pair: GearPair, torque: float, position: float, teeth: int | None) -> None:
+def _check(pair: GearPair, torque: float, position: float, teeth: int | None, finer: int) -> None:
     problems: list[Problem] = []
     if not (torque > 0.0 and np.isfinite(torque)):
         expected = "more than 0; the other way round it is the other direction"
@@ -257,6 +264,8 @@ def _check(pair: GearPair, torque: float, position: float, teeth: int | None) ->
         problems.append(Problem("position", given, expected, '--position "0 deg"'))
     if teeth is not None and teeth < 1:
         problems.append(Problem("teeth", str(teeth), "1 or more", "--teeth 5"))
+    if finer < 1:
+        problems.append(Problem("finer", str(finer), "1 or more", "--finer 4"))
     if problems:
         raise DesignError(problems)
 
@@ -266,22 +275,30 @@ def _expected(
     torque: float,
     position: float,
     compliance: tuple[ToothCompliance, ToothCompliance],
-) -> tuple[float, int, int]:
-    """Rotation and first and last pair in contact, as a loaded contact at the nearest position has them."""
+) -> tuple[float, dict[int, tuple[tuple[float, float], tuple[float, float]]]]:
+    """Rotation, and by pair in contact the cone distances on pinion and wheel between which it touches.
+
+    As a loaded contact at the nearest position has them.
+    """
     teeth = Teeth(*compliance, round(float(unloaded.mount.sense)))
     at = int(np.abs(unloaded.phi - position).argmin())
     half = PAIRS // 2
     meetings = [m for k in range(-half, half + 1) if (m := meeting(unloaded, at, k)) is not None]
     found = position_contact(meetings, teeth, torque)
-    loaded = [
-        p.meeting.pair
+    loaded = {
+        p.meeting.pair: _reach(p, found.solution.force[part] > 0.0)
         for p, part in zip(found.patches, found.parts, strict=True)
         if p.pinion_lever @ found.solution.force[part] > LEAST * torque
-    ]
+    }
     if not loaded:
         given = f"{torque * 1e-3:g} N m at {np.degrees(position):g} deg"
         raise DesignError([Problem("torque", given, found.outcome.value, '--torque "30 N m"')])
-    return found.solution.rotation, min(loaded), max(loaded)
+    return found.solution.rotation, loaded
+
+
+def _reach(p: Patch, touching: Array) -> tuple[tuple[float, float], tuple[float, float]]:
+    one, other = (distance[touching] for distance, _ in (p.pinion_place, p.wheel_place))
+    return (float(one.min()), float(one.max())), (float(other.min()), float(other.max()))
 
 
 def _mesh(

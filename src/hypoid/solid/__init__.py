@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from ._brep import SplineSurface as SplineSurface
     from ._brep import Turned as Turned
     from ._gear_brep import gear_brep as gear_brep
+    from ._hex_cell import face_nodes as face_nodes
     from ._hex_mesh import HexMesh as HexMesh
     from ._hex_mesh import hex_mesh as hex_mesh
     from ._hex_quality import Quality as Quality
@@ -33,10 +34,13 @@ if TYPE_CHECKING:
     from ._probes import probes as probes
     from ._splines import SplineCurve as SplineCurve
     from ._splines import tooth_splines as tooth_splines
+    from ._split import SplitMesh as SplitMesh
+    from ._split import split_under as split_under
     from ._surface_mesh import surface_mesh as surface_mesh
 
 _LAZY = {
     "HexMesh": "_hex_mesh",
+    "face_nodes": "_hex_cell",
     "hex_mesh": "_hex_mesh",
     **dict.fromkeys(("Quality", "shape_gradients"), "_hex_quality"),
     "surface_mesh": "_surface_mesh",
@@ -44,6 +48,7 @@ _LAZY = {
     "SplineCurve": "_splines",
     "gear_brep": "_gear_brep",
     "probes": "_probes",
+    **dict.fromkeys(("SplitMesh", "split_under"), "_split"),
     "tooth_splines": "_splines",
 }
 

@@ -47,18 +47,28 @@ class Quality:
 def _gradients(nodes: int) -> Array:
     """Gradients of the shape functions (points, 3, nodes) at 27 Gauss points and at the nodes."""
     gauss = np.array(list(product(np.sqrt(0.6) * np.array([-1.0, 0.0, 1.0]), repeat=3)))
-    return shape_gradients(np.concatenate([gauss, _places(nodes)]), nodes)
+    return shape_gradients(np.concatenate([gauss, node_places(nodes)]), nodes)
 
 
-def _places(nodes: int) -> Array:
+def node_places(nodes: int) -> Array:
     """Places (nodes, 3) of an element's nodes in [-1, 1]."""
     places = CORNERS.astype(float)
     return places if nodes == 8 else np.concatenate([places, places[EDGES].mean(axis=1)])
 
 
+def shape_values(points: Array) -> Array:
+    """Values (points, 20) of a 20-node brick's shape functions at places (points, 3) in [-1, 1]."""
+    places = node_places(20)
+    factor = np.where(places == 0.0, 1.0 - points[:, None] ** 2, 1.0 + points[:, None] * places)
+    made = factor.prod(axis=-1)
+    made[:, :8] *= 0.125 * (points @ CORNERS.T - 2.0)
+    made[:, 8:] *= 0.25
+    return made
+
+
 def shape_gradients(points: Array, nodes: int = 20) -> Array:
     """Gradients (points, 3, nodes) of a brick's shape functions at places (points, 3) in [-1, 1]."""
-    places = _places(nodes)
+    places = node_places(nodes)
     made = np.zeros((len(points), 3, nodes))
     for k, place in enumerate(places):
         factor = 1.0 + points * place  # (points, 3)
