@@ -1,7 +1,7 @@
 """A tooth's condensation with MUMPS beside our own, layer by layer; for docs/loaded-contact.md, run by hand.
 
     pip install python-mumps    # builds with Debian's libmumps-seq-dev
-    OPENBLAS_NUM_THREADS=1 python benchmarks/mumps.py
+    OPENBLAS_NUM_THREADS=1 python benchmarks/with_mumps.py
 
 Both answer the same: `load`' K^-1 `load` for all hats and both cuts of a tooth, on one thread.
 """
@@ -29,7 +29,7 @@ def by_mumps(matrix: Any, place: Any, load: Any, sight: Any, progress: Any = Non
     """As `_layers.through`."""
     context: Any = mumps.Context()
     context.set_matrix(matrix.tocoo(), symmetric=True)
-    context.factor(ordering="metis" if "metis" in mumps.possible_orderings() else "auto")
+    context.factor()
     load, sight = load.tocsc(), sight.tocsc()
     found, seen = [], []
     for start in range(0, load.shape[1], AT_ONCE):
