@@ -25,6 +25,7 @@ from hypoid.load import (
     tooth_compliance,
 )
 from hypoid.load._cells import Cells, compliance
+from hypoid.load._guess import Guess
 from hypoid.load._load_case import _spline_range
 from hypoid.load._patch import EDGES, Window, meeting, patch
 from hypoid.load._position import position_contact
@@ -141,6 +142,27 @@ def test_positions_repeat_after_a_pitch(loaded: LoadedContact) -> None:
     assert [p.pair + 2 for p in first.pairs] == [p.pair for p in last.pairs]
     again = at(loaded, case.torque, loaded.unloaded.sampling.positions_per_pitch)
     assert again.solution.rotation == pytest.approx(last.rotation, rel=2e-3)
+
+
+def test_a_window_foretold_beside_its_contact_is_put_right(loaded: LoadedContact) -> None:
+    """A pair that finds no contact where it is looked for, but must be near one, is looked at where it is nearest."""
+    found = at(loaded, 11e4)
+    meetings = [p.meeting for p in found.patches]
+    astray = dict(found.guesses)
+    least = min(p.meeting.pair for p in found.patches)
+    low, high = astray[least].window.along
+    away = Window((high + 1.0, 2.0 * high - low + 1.0), astray[least].window.across)
+    astray[least] = Guess(away)
+    again = position_contact(meetings, loaded.teeth, 11e4, astray, found.solution.rotation)
+    assert again.solution.rotation == pytest.approx(found.solution.rotation, rel=1e-3)
+    forces = [
+        {
+            p.meeting.pair: float(one.solution.force[part].sum())
+            for p, part in zip(one.patches, one.parts, strict=True)
+        }
+        for one in (again, found)
+    ]
+    assert forces[0] == pytest.approx(forces[1], rel=0.02)
 
 
 def test_four_times_the_cells_change_little(

@@ -72,10 +72,10 @@ def position_contact(
         for m in ranked
         if m.gap <= ranked[0].gap + max(1e-3, rotation * m.lever) or m.pair in known
     ]
-    for m in ranked:
-        if m.pair not in known:
-            share = len(chosen) if m in chosen else len(ranked)
-            known[m.pair] = Guess(first_window(m, teeth, torque / share))
+    first = {m.pair: torque / (len(chosen) if m in chosen else len(ranked)) for m in ranked}
+    fresh = {m.pair: Guess(first_window(m, teeth, first[m.pair])) for m in ranked}
+    foretold = set(known)
+    known = fresh | known
     cells = {m.pair: Cells(patch(m, known[m.pair].window), teeth) for m in chosen}
     blocks: dict[tuple[int, int], Array] = {}
     found: PositionContact | None = None
@@ -90,15 +90,24 @@ def position_contact(
             break
         known.update(found.guesses)
         closing = {m.pair: solution.rotation * m.lever for m in ranked}
-        late = [m for m in ranked if m.pair not in cells and m.gap < closing[m.pair]]
+        bearing = {
+            p.meeting.pair
+            for p, part in zip(patches, found.parts, strict=True)
+            if solution.force[part].any()
+        }
         moved = {
             p.meeting.pair: after
             for p, part in zip(patches, found.parts, strict=True)
             if (after := moved_window(p, solution.force[part])) is not None
         }
+        # late ones, and those whose foretold window may lie beside their contact
+        looked = cells.keys() - (foretold - bearing)
+        late = [m for m in ranked if m.pair not in looked and m.gap < closing[m.pair]]
         if not moved and not late:
             return _at_tips(replace(found, open_window=False), used, torque)
         for m in late:
+            foretold.discard(m.pair)
+            known[m.pair] = fresh[m.pair]
             cells[m.pair] = Cells(patch(m, known[m.pair].window), teeth)
         for p in patches:
             if (window := moved.get(p.meeting.pair)) is not None:
