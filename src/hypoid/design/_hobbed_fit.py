@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -22,13 +23,12 @@ from ._hobbed_joint import (
     PLACE,
     JointModel,
     JointSeen,
-    Memory,
     joint_model,
 )
 from ._hobbed_request import HobbedRequest
 from ._hobbed_start import Start, conjugate_start, pinion_thickness, plain_start
 from ._hobbed_wheel import HobbedWheel, head_plan
-from ._hobbed_work import BENDS, Work, begun, work_of
+from ._hobbed_work import BENDS, FEWEST, Stage, begun, evened_out, work_of
 from ._joint_fit import Wish
 from ._milled_wheel import pitch_cone
 from ._motion import motion_of
@@ -41,7 +41,6 @@ from ._settings_model import BLADE, MOTIONS, NAMES, ROLL
 from ._target import MotionTarget, Target
 
 Array = np.ndarray[Any, Any]
-FEWEST = 20  # points of a conjugate that a fit needs
 MOTION_PASSES, MOTION_MET = 3, 0.004  # of the depth asked for
 ADVICE = (
     *HEAD,
@@ -114,7 +113,7 @@ def fit_hobbed(
     """Settings and blades of a pinion for a request; None where there is nothing to start from.
 
     From the plain start for a generated wheel, from the wheel's conjugate for a form-cut one; where
-    that does not reach the targets, from the other, too.
+    that does not reach the targets, from the other, too, and then from both once more with patience.
     """
     cone = pitch_cone(blank, "pinion")
     mates: dict[Side, Side] = {"concave": "convex", "convex": "concave"}
@@ -126,14 +125,16 @@ def fit_hobbed(
     thickness = pinion_thickness(blank, request.normal_backlash)
     plan = head_plan(request, blank, request.grind.pinion_curve_radius or 0.0)
     generated = request.wheel_method == "generated"
-    order = ("plain", "conjugate") if generated else ("conjugate", "plain")
+    starts: list[Callable[[], Start | None]] = [
+        lambda: plain_start(plan, blank, thickness),
+        lambda: conjugate_start(plan, blank, wheel),
+    ]
+    order = starts if generated else starts[::-1]
     best: HobbedFit | None = None
-    for which in order:
-        plain = which == "plain"
-        start = (
-            plain_start(plan, blank, thickness) if plain else conjugate_start(plan, blank, wheel)
-        )
-        fit = None if start is None else _fitted(request, blank, start, found, targets, thickness)
+    for patient, begin in product((False, True), order):
+        start, fit = begin(), None
+        if start is not None:
+            fit = _fitted(request, blank, start, found, targets, thickness, patient=patient)
         if best is None or (fit is not None and fit.largest < best.largest):
             best = fit
         if best is not None and best.largest <= request.tolerance:
@@ -148,6 +149,8 @@ def _fitted(
     found: Mapping[Side, Conjugate],
     targets: Mapping[Side, Target],
     thickness: float,
+    *,
+    patient: bool,
 ) -> HobbedFit | None:
     model = joint_model(
         start,
@@ -160,31 +163,25 @@ def _fitted(
     )
     if model is None or min(side.there.sum() for side in model.sides.values()) < FEWEST:
         return None
-    work = work_of(model, request, start, blank)
+    work = work_of(model, request, start, blank, patient=patient)
     stage = begun(work)
     if stage is None:
         return None
-    vector, fit = stage
     free, freedom = work.free, work.method
     more = {n: Wish(0.0, spread) for n, spread in freedom.spreads.items() if n in free}
     if set(free) != set(work.first):
-        last = work.run(vector, free, more, fit.look.memory)
-        if last is not None:
-            vector, fit = last
+        stage = stage.run(free, more) or stage
     aimed = dict(targets)
     for _ in range(MOTION_PASSES):
-        next_aim = _aimed_again(work, vector, fit.look.memory, targets, aimed, blank)
+        next_aim = _aimed_again(stage, targets, aimed, blank)
         if next_aim is None:
             break
         aimed = next_aim
-        last = replace(work, model=_with_targets(model, aimed, blank)).run(
-            vector, free, more, fit.look.memory
-        )
+        last = stage.asked(_with_targets(stage.work.model, aimed, blank)).run(free, more)
         if last is None:
             break
-        vector, fit = last
-    vector, fit = work.evened(vector, fit, free, more)
-    return _result(work, vector, fit, work.free)
+        stage = last.asked(_with_targets(last.work.model, targets, blank))
+    return _result(evened_out(stage, more))
 
 
 def _with_targets(
@@ -199,9 +196,7 @@ def _with_targets(
 
 
 def _aimed_again(
-    work: Work,
-    vector: Array,
-    memory: Memory,
+    stage: Stage,
     targets: Mapping[Side, Target],
     aimed: Mapping[Side, Target],
     blank: PairBlank,
@@ -210,11 +205,11 @@ def _aimed_again(
 
     The fit is to an ease-off: what it leaves changes the motion that was asked for.
     """
-    seen = work.look(vector, {}, memory)
+    seen = stage.look()
     if seen is None:
         return None
     off, again = False, dict(aimed)
-    for side, own in work.model.sides.items():
+    for side, own in stage.work.model.sides.items():
         target, now = targets[side], aimed[side]
         if not (isinstance(target, MotionTarget) and isinstance(now, MotionTarget)):
             continue
@@ -230,9 +225,9 @@ def _aimed_again(
     return again if off else None
 
 
-def _result(work: Work, vector: Array, fit: Fit, free: tuple[str, ...]) -> HobbedFit | None:
-    model = work.model
-    seen = work.look(vector, {}, fit.look.memory)
+def _result(stage: Stage) -> HobbedFit | None:
+    work, vector, fit = stage.work, stage.vector, stage.fit
+    model, free, seen = work.model, work.free, stage.look()
     if seen is None:
         return None
     sides: dict[Side, SideFit] = {}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, TypeVar
 
 import numpy as np
@@ -12,12 +13,23 @@ import numpy as np
 from hypoid.blank import PairBlank
 from hypoid.flank import SIDES, Side
 
-from ._fit import EVENED, Fit, Look, evened, gauss_newton
-from ._hobbed_joint import BLADES, PLACE, JointModel, JointSeen, Memory, SideModel, joint_vector
+from ._fit import CUT, EVENED, Fit, Look, evened, gauss_newton
+from ._hobbed_joint import (
+    BLADES,
+    JOINT,
+    PLACE,
+    JointModel,
+    JointSeen,
+    Memory,
+    SideModel,
+    joint_vector,
+    placed,
+)
 from ._hobbed_request import HobbedRequest
 from ._hobbed_start import Start
 from ._joint_fit import Wish
 from ._pinion_methods import (
+    HEAD,
     METHODS,
     Bounds,
     Freedom,
@@ -27,12 +39,17 @@ from ._pinion_methods import (
     lead,
     step_limits,
 )
+from ._pinion_model import FOLDING
 from ._settings_model import MOTIONS, NAMES, ROLL
 
 Array = np.ndarray[Any, Any]
 V = TypeVar("V")
+TILT, SWIVEL = PLACE["tilt_angle"], PLACE["swivel_angle"]
 BENDS = tuple(f"{side}.blade_curvature" for side in SIDES)
 MOVING = (*ROLL, *MOTIONS, "helical_motion")  # left for the last stage
+FEWEST = 20  # points of a conjugate that a fit needs
+STEPS, PATIENCE = 60, 2  # steps of a run, and times as many of a patient one
+UNFOLDINGS = 4  # runs of a stage, each without the places that folded in the last
 FAR = -math.inf, math.inf
 RADIUS_SPREAD = 0.01  # of the head's radius, that a blade's may stray at the price of 1 um
 ANGLE_SPREAD = math.radians(0.5)
@@ -62,6 +79,9 @@ class Work:
     fixed: Mapping[str, float]  # chain's signs
     bounds: Bounds  # chain's signs
     limits: Mapping[str, float]  # greatest change of each entry in one step
+    patient: (
+        bool  # leaves out places that fold on the way, turns the swivel first, takes more steps
+    )
 
     @property
     def wishes(self) -> dict[str, Wish]:
@@ -87,59 +107,108 @@ class Work:
         more: Mapping[str, Wish],
         memory: Any,
         *,
-        steps: int = 60,
+        steps: int = STEPS,
         bounded: bool = True,
-    ) -> tuple[Array, Fit] | None:
-        """One stage: these entries free, with these wishes beside the blades'."""
+    ) -> Stage | None:
+        """One stage: these entries free, with these wishes beside the blades'.
+
+        A patient fit: places that fold on the way are of another sheet from there on: they are left out, and
+        the stage goes on. So are those near undercut, which hold the others up, while the tolerance is not met.
+        """
         index = [PLACE[name] for name in free]
-
-        def full(x: Array) -> Array:
-            whole = vector.copy()
-            whole[index] = x
-            return whole
-
-        def model(x: Array, memory: Any) -> Look | None:
-            seen = self.look(full(x), more, memory)
-            if seen is None:
-                return None
-            return Look(seen.residual, seen.jacobian[:, index], seen.memory)
-
         scale = np.array([self.limits[name] for name in free])
         low, high = np.array([self.ends(name) if bounded else FAR for name in free]).T
-        fit = gauss_newton(model, vector[index], memory, scale, low=low, high=high, steps=steps)
-        return None if fit is None else (full(fit.x), fit)
+        work, most = self, PATIENCE * steps if self.patient else steps
+        for left in range(UNFOLDINGS if self.patient else 1, 0, -1):
+            model = partial(work._at, vector, index, more)
+            fit = gauss_newton(model, vector[index], memory, scale, low=low, high=high, steps=most)
+            if fit is None:
+                return None
+            vector = vector.copy()
+            vector[index] = fit.x
+            stage = Stage(work, vector, fit)
+            seen = stage.look()
+            if seen is None or left == 1:
+                return stage
+            least = 0.0 if stage.largest(seen) <= self.request.tolerance else FOLDING
+            sides = work.model.sides
+            there: dict[Side, Array] = {
+                side: own.there & (seen.upright[side] >= least) for side, own in sides.items()
+            }
+            lost = any((there[side] != own.there).any() for side, own in sides.items())
+            if not lost or min(at.sum() for at in there.values()) < FEWEST:
+                return stage
+            work, memory = replace(work, model=work.model.only(there)), placed(stage.memory, there)
+        return None
 
-    def evened(
-        self,
-        vector: Array,
-        fit: Fit,
-        free: tuple[str, ...],
-        more: Mapping[str, Wish],
-    ) -> tuple[Array, Fit]:
-        """Where a fit ended, or nearer to the least greatest residual if that meets the tolerance, and it does not."""
-        squares, model = (vector, fit), self.model
-        for _ in range(EVENED):
-            seen = self.look(vector, {}, fit.look.memory)
-            if seen is None:
-                break
-            left = {side: seen.misfit[side][own.there] for side, own in model.sides.items()}
-            greatest = max(float(np.abs(v).max()) for v in left.values())
-            if greatest <= self.request.tolerance:
-                return vector, fit
-            sides: dict[Side, SideModel] = {}
-            for side, own in model.sides.items():
-                weight = own.weight.copy()
-                weight[own.there] = evened(weight[own.there], left[side], greatest)
-                sides[side] = replace(own, weight=weight)
-            model = replace(model, sides=sides)
-            found = replace(self, model=model).run(vector, free, more, fit.look.memory)
-            if found is None:
-                break
-            vector, fit = found
-        return squares
+    def _at(
+        self, vector: Array, index: list[int], more: Mapping[str, Wish], x: Array, memory: Any
+    ) -> Look | None:
+        whole = vector.copy()
+        whole[index] = x
+        seen = self.look(whole, more, memory)
+        return None if seen is None else Look(seen.residual, seen.jacobian[:, index], seen.memory)
 
 
-def work_of(model: JointModel, request: HobbedRequest, start: Start, blank: PairBlank) -> Work:
+@dataclass(frozen=True)
+class Stage:
+    """Where a run ended, and what it worked with there."""
+
+    work: Work
+    vector: Array
+    fit: Fit
+
+    @property
+    def memory(self) -> Memory:
+        """Where Newton goes on from."""
+        return self.fit.look.memory
+
+    def look(self) -> JointSeen | None:
+        """The stage looked at, blades' wishes alone."""
+        return self.work.look(self.vector, {}, self.memory)
+
+    def largest(self, seen: JointSeen) -> float:
+        """Greatest residual of both flanks, mm."""
+        sides = self.work.model.sides.items()
+        return max(float(np.abs(seen.misfit[side][own.there]).max()) for side, own in sides)
+
+    def run(self, free: tuple[str, ...], more: Mapping[str, Wish], **how: Any) -> Stage | None:
+        """A run from here."""
+        return self.work.run(self.vector, free, more, self.memory, **how)
+
+    def asked(self, model: JointModel) -> Stage:
+        """The same with another model, of other targets or weights."""
+        return replace(self, work=replace(self.work, model=model))
+
+
+def evened_out(stage: Stage, more: Mapping[str, Wish]) -> Stage:
+    """Where a fit ended, or nearer to the least greatest residual if that meets the tolerance, and it does not."""
+    squares = stage
+    for _ in range(EVENED):
+        seen = stage.look()
+        if seen is None:
+            break
+        model, greatest = stage.work.model, stage.largest(seen)
+        if greatest <= stage.work.request.tolerance:
+            plain = {
+                s: replace(own, weight=np.ones(len(own.weight))) for s, own in model.sides.items()
+            }
+            return stage.asked(replace(model, sides=plain))
+        sides: dict[Side, SideModel] = {}
+        for side, own in model.sides.items():
+            weight, left = own.weight.copy(), seen.misfit[side][own.there]
+            weight[own.there] = evened(weight[own.there], left, greatest)
+            sides[side] = replace(own, weight=weight)
+        found = stage.asked(replace(model, sides=sides)).run(stage.work.free, more)
+        if found is None:
+            break
+        stage = found
+    return squares
+
+
+def work_of(
+    model: JointModel, request: HobbedRequest, start: Start, blank: PairBlank, *, patient: bool
+) -> Work:
     """What a fit works with: the request's method and limits, as entries of the joint vector."""
     method, asked = METHODS[request.pinion_method], request.limits
     bends = request.grind.pinion_curve_radius is None
@@ -158,39 +227,66 @@ def work_of(model: JointModel, request: HobbedRequest, start: Start, blank: Pair
         fixed,
         _each(bounds_of(asked, blank)),
         _each({name: held[name] for name in NAMES}),
+        patient,
     )
 
 
-def begun(work: Work) -> tuple[Array, Fit] | None:
+def begun(work: Work) -> Stage | None:
     """The stage before motions: what the method has not, is fixed or bounded, led there and kept there."""
-    vector, memory = joint_vector(work.start), work.model.start
     first = tuple(dict.fromkeys((*work.first, *work.method.rest)))
+    vector, memory = joint_vector(work.start), work.model.start
+    if work.patient:
+        vector, memory = _swivelled(work, first)
     stage = work.run(vector, first, {}, memory, bounded=False)
     if stage is None:
         return None
-    vector, memory = stage[0], stage[1].look.memory
-    to = goals(work.method, work.fixed, work.bounds, {n: [vector[k]] for n, k in PLACE.items()})
-    off = {name: value for name, value in to.items() if abs(vector[PLACE[name]] - value) > 1e-9}
+    has = {name: [float(stage.vector[k])] for name, k in PLACE.items()}
+    to = goals(work.method, work.fixed, work.bounds, has)
     if not to:
         return stage
     # without tilt the swivel only says where the cutter's turn counts from
     untilted = to.get("tilt_angle") == 0.0
-    swivel = float(vector[PLACE["swivel_angle"]])
+    off = {name: value for name, value in to.items() if abs(has[name][0] - value) > 1e-9}
     if any(name != "swivel_angle" or not untilted for name in off):
         wishes = lead(off, work.limits)
         if untilted or "swivel_angle" not in to:
-            wishes["swivel_angle"] = Wish(swivel, math.radians(1.0))
-        names = tuple(dict.fromkeys((*first, *wishes)))
-        stage = work.run(vector, names, wishes, memory, steps=80, bounded=False)
+            wishes["swivel_angle"] = Wish(has["swivel_angle"][0], math.radians(1.0))
+        stage = stage.run(tuple(dict.fromkeys((*first, *wishes))), wishes, steps=80, bounded=False)
         if stage is None:
             return None
-        vector, memory = stage[0], stage[1].look.memory
-    put = vector.copy()
+    put, memory = stage.vector.copy(), stage.memory
     put[[PLACE[name] for name in to]] = list(to.values())
     if untilted:
-        turned = float(put[PLACE["swivel_angle"]] - vector[PLACE["swivel_angle"]])
-        memory = {
-            side: (s, turn + turned, phi, root_turn + turned, root_phi)
-            for side, (s, turn, phi, root_turn, root_phi) in memory.items()
-        }
-    return work.run(put, work.first, {}, memory)
+        memory = _turned(memory, float(put[SWIVEL] - stage.vector[SWIVEL]))
+    return stage.work.run(put, work.first, {}, memory)
+
+
+def _swivelled(work: Work, free: tuple[str, ...]) -> tuple[Array, Memory]:
+    """The start, and where there is no tilt, with the swivel along which tilt is wanted.
+
+    Tilt and swivel are polar coordinates of the cutter's axis: at no tilt the swivel moves nothing, and a
+    fit that is to lean the axis across it would stay where it is.
+    """
+    vector, memory = joint_vector(work.start), work.model.start
+    if vector[TILT] != 0.0 or not {"tilt_angle", "swivel_angle"} <= set(free):
+        return vector, memory
+    across, turned = vector.copy(), _turned(memory, 0.5 * math.pi)
+    across[SWIVEL] += 0.5 * math.pi
+    seen, other = work.look(vector, {}, memory), work.look(across, {}, turned)
+    if seen is None or other is None:
+        return vector, memory
+    index = [PLACE[name] for name in free if name not in ("tilt_angle", "swivel_angle")]
+    scale = np.array([work.limits[name] for name in (*(JOINT[k] for k in index), *HEAD)])
+    columns = [seen.jacobian[:, index], seen.jacobian[:, [TILT]], other.jacobian[:, [TILT]]]
+    step = np.linalg.lstsq(np.hstack(columns) * scale, -seen.residual, rcond=CUT)[0]
+    swivel = math.atan2(step[-1], step[-2])
+    vector[SWIVEL] += swivel
+    return vector, _turned(memory, swivel)
+
+
+def _turned(memory: Memory, by: float) -> Memory:
+    """The memory of an untilted cutter whose swivel changes so much: its turn counts from there."""
+    return {
+        side: (s, turn + by, phi, root_turn + by, root_phi)
+        for side, (s, turn, phi, root_turn, root_phi) in memory.items()
+    }
