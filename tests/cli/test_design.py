@@ -121,3 +121,28 @@ def test_report_shows_what_the_fit_leaves(hypoid: Any, tmp_path: Path) -> None:
     section = text.split("Fit to the target</h2>")[-1].split("</section>")[0]
     assert "The target determines every free setting." in section
     assert "<svg" in section
+
+
+def test_a_hobbed_pinions_ranges_from_the_file_to_the_written_settings(
+    hypoid: Any, tmp_path: Path
+) -> None:
+    """The written sheet keeps the range and says which setting stands at its bound; nonsense ends with 2."""
+    text = (EXAMPLE.parent / "vimercati-piazza-2005.toml").read_text(encoding="utf-8")
+    source, target = tmp_path / "asked.toml", tmp_path / "designed.toml"
+    source.write_text(
+        text + '\n[pinion.range]\ntilt_angle = ["0 deg", "15 deg"]\n', encoding="utf-8"
+    )
+    status, _, err = hypoid("design", str(source), "-o", str(target))
+    assert status == 1
+    assert "tilt_angle stands at its upper bound, 15 deg" in err
+    assert "# tilt_angle stands at its upper bound, 15 deg" in target.read_text(encoding="utf-8")
+    spec = read_spec(target)
+    assert isinstance(spec, SummarySheetSpec)
+    for flank in (spec.pinion.concave, spec.pinion.convex):
+        assert np.degrees(flank.dials["tilt_angle"]) == pytest.approx(15.0, abs=1e-9)
+    source.write_text(
+        text + '\n[pinion.range]\ntilt_angle = ["15 deg", "0 deg"]\n', encoding="utf-8"
+    )
+    status, _, err = hypoid("design", str(source))
+    assert status == 2
+    assert "pinion.range.tilt_angle" in err

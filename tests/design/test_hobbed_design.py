@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache
-from math import cos, degrees, pi
+from math import cos, degrees, pi, radians
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from tri_ac import stick_sweep
 
-from hypoid.blank import iso_blank
+from hypoid.blank import BlankRequest, TypeII, iso_blank
 from hypoid.contact import Misalignment, pair_backlash, unloaded_contact
 from hypoid.cutter import TriAcHead
 from hypoid.design import (
@@ -20,6 +20,7 @@ from hypoid.design import (
     HobbedDesign,
     HobbedRequest,
     MotionTarget,
+    PinionLimits,
     StickGrind,
     build,
     design_exact,
@@ -242,6 +243,105 @@ def test_a_method_that_falls_short_says_how_far_and_what_would_help() -> None:
     told = [fault for fault in made.faults if "from its target ease-off" in fault]
     assert told
     assert "these would help both" in told[0]
+
+
+def test_a_start_that_leans_the_cutter_the_wrong_way_is_left() -> None:
+    """12 x 31 at 73.5 deg: tilt is wanted across the swivel that both starts have, and places fold on the way.
+
+    Number 275 of the random blanks, which kept 38 um: the cutter's axis stayed upright, where swivel moves
+    nothing. Leaving the places that fold may not be the way to the tolerance: most of them still count.
+    """
+    crowned = EaseOffTarget(0.0192, 0.0128)
+    blank = BlankRequest(
+        1, 12, 31, 1.282794190901493, 6.015696763294402, 37.304341662326024, 113.95184982917482,
+        0.3118232397334818, wheel_outer_diameter=31 * 6.5851828034489435, taper="uniform",
+        tooth=TypeII(depth_factor=2.0), blade_groups=14,
+    )  # fmt: skip
+    grind = StickGrind(pinion_curve_radius=None)
+    request = HobbedRequest(
+        "", "", (), blank, grind=grind, drive=crowned, coast=crowned, tolerance=0.0102646
+    )
+    made = design_hobbed(request)
+    assert degrees(made.fit.settings.tilt_angle) > 10.0
+    for fit in made.fit.sides.values():
+        assert fit.largest < request.tolerance
+        assert np.isfinite(fit.residual).sum() > 50  # of 65 that the blank leaves of 91
+
+
+def limited(**limits: Any) -> HobbedDesign:
+    """The crowned 15 x 44 with its pinion's settings held or bounded."""
+    made, _ = designed("crowned")
+    return design_hobbed(replace(made.request, limits=PinionLimits(**limits)))
+
+
+@pytest.mark.parametrize("name", ["tilt_angle", "blank_offset", "blade_radius"])
+def test_ranges_of_settings_hold_and_are_active(name: str) -> None:
+    """Cut off just short of the free fit's value, each stands at its bound, met targets or not."""
+    free, _ = designed("crowned")
+    settings = free.fit.settings
+    inner = free.fit.radii[1]
+    low, high = {
+        "tilt_angle": (0.0, settings.tilt_angle - radians(2.0)),
+        "blank_offset": (
+            -settings.blank_offset - 9.0,
+            -settings.blank_offset - 0.5,
+        ),  # sheet's sign
+        "blade_radius": (inner - 5.0, inner - 0.1),
+    }[name]
+    made = limited(ranges={name: (low, high)})
+    found = {
+        "tilt_angle": made.fit.settings.tilt_angle,
+        "blank_offset": -made.fit.settings.blank_offset,
+        "blade_radius": made.fit.radii[1],
+    }
+    assert low <= found[name] <= high
+    assert found[name] == pytest.approx(high, abs=1e-9)
+    said = "convex.blade_radius" if name == "blade_radius" else name
+    assert any(words.startswith(f"{said} stands at its upper bound") for words in made.fit.held)
+    assert all(fit.largest < made.request.tolerance for fit in made.fit.sides.values())
+    assert made.fit.thickness == pytest.approx(free.fit.thickness, abs=2e-3)
+
+
+def test_a_bound_that_keeps_a_target_from_being_met_is_named_for_both_flanks() -> None:
+    made = limited(ranges={"tilt_angle": (0.0, radians(15.0))})
+    assert made.fit.settings.tilt_angle == pytest.approx(radians(15.0), abs=1e-12)
+    told = [fault for fault in made.faults if "target ease-off" in fault]
+    assert len(told) == 2  # drive and coast
+    for fault in told:
+        assert "tilt_angle stands at its upper bound, 15 deg" in fault
+
+
+def test_fixed_and_freed_settings() -> None:
+    """A fixed value stays, in the sheet's signs; what is freed beside the method's gains."""
+    made = limited(fixed={"tilt_angle": radians(27.0), "blank_offset": -23.5})
+    assert made.fit.settings.tilt_angle == pytest.approx(radians(27.0), abs=1e-12)
+    assert made.fit.settings.blank_offset == pytest.approx(23.5, abs=1e-12)  # chain's sign
+    assert not {"tilt_angle", "blank_offset"} & set(made.fit.free)
+    free, _ = designed("crowned")
+    more = limited(free=("modified_roll_2",))
+    assert more.fit.settings.modified_roll[0] != 0.0
+    assert more.fit.rms < free.fit.rms
+
+
+def test_limits_without_sense_are_told() -> None:
+    bad = {
+        "machine": "gleason-122",
+        "free": ("magic",),
+        "fixed": {"point_radius": 88.0, "tilt_angle": 0.5},
+        "ranges": {"tilt_angle": (0.0, 0.4), "sliding_base": (5.0, -5.0)},
+    }
+    with pytest.raises(DesignError) as caught:
+        limited(**bad)
+    assert {problem.path for problem in caught.value.problems} == {
+        "pinion.machine",
+        "pinion.free",
+        "pinion.fixed.point_radius",
+        "pinion.fixed.tilt_angle",
+        "pinion.range.sliding_base",
+    }
+    with pytest.raises(DesignError) as caught:  # no such pinion is there at all
+        limited(ranges={"radial_distance": (10.0, 20.0)})
+    assert "widen pinion.range" in caught.value.problems[0].expected
 
 
 def test_nonsense_is_told_with_its_keys() -> None:

@@ -254,6 +254,11 @@ def test_bounds_and_fixed_settings_hold_and_are_named() -> None:
     for fit in made.fits.values():
         assert fit.settings.blank_offset == pytest.approx(16.0, abs=1e-12)  # chain's sign
         assert degrees(fit.settings.tilt_angle) < 30.0 + 1e-9
+    limits = PinionLimits(ranges={"blank_offset": (-40.0, -20.0)})  # named in the sheet's sign
+    made = design_milled(replace(REQUEST, limits=limits))
+    for fit in made.fits.values():
+        assert 20.0 - 1e-9 <= fit.settings.blank_offset <= 40.0
+        assert "blank_offset stands at its upper bound, -20 mm" in fit.held
 
 
 @pytest.mark.parametrize("spiral", [0.0, 6.0])

@@ -63,6 +63,23 @@ def test_what_a_file_leaves_out_is_free_or_usual() -> None:
     assert free.grind.hook_angle == pytest.approx(radians(5.0))
 
 
+def test_limits_of_a_hobbed_pinion_are_those_of_a_milled_one() -> None:
+    request = parsed(
+        TRI_AC,
+        pinion__range={"tilt_angle": ["0 deg", "25 deg"], "blade_radius": ["75 mm", "77 mm"]},
+        pinion__fixed={"blank_offset": "-23 mm"},
+        pinion__free=["modified_roll_2"],
+    )
+    limits = request.limits
+    assert limits.ranges["tilt_angle"] == pytest.approx((0.0, radians(25.0)))
+    assert limits.ranges["blade_radius"] == (75.0, 77.0)
+    assert dict(limits.fixed) == {"blank_offset": -23.0}
+    assert limits.free == ("modified_roll_2",)
+    assert request.problems() == []
+    reversed_ends = parsed(TRI_AC, pinion__range={"tilt_angle": ["25 deg", "0 deg"]})
+    assert [p.path for p in reversed_ends.problems()] == ["pinion.range.tilt_angle"]
+
+
 def test_exact_file_is_table_1_of_2022() -> None:
     spec = parsed(EXACT)
     assert isinstance(spec, ExactFaceHobbedSpec)
@@ -77,6 +94,35 @@ def test_exact_file_is_table_1_of_2022() -> None:
         (TRI_AC, {"cutting__blade_groups": None}, "cutting.blade_groups", "groups of the"),
         (TRI_AC, {"cutting__cutter_radius": None}, "cutting.cutter_radius", "a length"),
         (TRI_AC, {"cutting__blade_groups": 90}, "cutting.blade_groups", "at most"),
+        (TRI_AC, {"pinion__machine": "gleason-122"}, "pinion.machine", "slot by slot"),
+        (TRI_AC, {"pinion__free": ["magic"]}, "pinion.free", "names among"),
+        (TRI_AC, {"pinion__free": ["blade_curvature"]}, "pinion.free", "curve_radius"),
+        (
+            TRI_AC,
+            {"pinion__range": {"point_width": ["1 mm", "2 mm"]}},
+            "pinion.range.point_width",
+            "blade_radius",
+        ),
+        (
+            TRI_AC,
+            {"pinion__fixed": {"point_radius": "76 mm"}},
+            "pinion.fixed.point_radius",
+            "blade_radius",
+        ),
+        (TRI_AC, {"pinion__range": {"magic": ["1 mm", "2 mm"]}}, "pinion.range.magic", ""),
+        (TRI_AC, {"pinion__range": {"tilt_angle": ["1 deg"]}}, "pinion.range.tilt_angle", "two"),
+        (
+            MILLED,
+            {"pinion__range": {"blade_radius": ["1 mm", "2 mm"]}},
+            "pinion.range.blade_radius",
+            "point_radius",
+        ),
+        (
+            EXACT,
+            {"pinion__range": {"tilt_angle": ["0 deg", "1 deg"]}},
+            "pinion.range",
+            "exact system",
+        ),
         (TRI_AC, {"pinion__method": "magic"}, "pinion.method", "tilt"),
         (TRI_AC, {"cutting__tip_edge_radius_factor": 0.3}, "cutting.tip_edge_radius_factor", "edge_radius"),
         (TRI_AC, {"wheel__curve_radius": "0 mm"}, "wheel.curve_radius", "other than 0"),

@@ -52,6 +52,14 @@ def blank_faults(blank: PairBlank, undercut: Sequence[UndercutLimit]) -> list[st
     return found
 
 
+def wider(request: MilledRequest | HobbedRequest) -> str:
+    """What else may keep a pinion from being there: bounds of the request, in words."""
+    limits = request.limits
+    parts = ("machine", limits.machine), ("fixed", limits.fixed), ("range", limits.ranges)
+    given = [f"pinion.{name}" for name, value in parts if value]
+    return f", or widen {' and '.join(given)}" if given else ""
+
+
 def short_of_target(side: Side, fit: Near, request: MilledRequest | HobbedRequest) -> str:
     """How near a pinion flank came to its target, without a full stop."""
     return (

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import degrees
 from typing import Any
 
 import numpy as np
@@ -13,10 +12,10 @@ from hypoid.machine import MachineSettings
 
 from ._fit import Fit, promised
 from ._joint_fit import JointFit, Unknowns
-from ._pinion_methods import HEAD
+from ._pinion_methods import HEAD, held_words
 from ._pinion_model import ROOT_PLACES, UM, PinionModel
 from ._pinion_task import PinionTask, Stage
-from ._settings_model import ANGLES, INDEX, MOTIONS, ROLL, settings_of
+from ._settings_model import INDEX, MOTIONS, ROLL, settings_of
 
 Array = np.ndarray[Any, Any]
 ADVICE = (*HEAD, *ROLL[:3], "helical_motion", "blade_curvature", *MOTIONS)
@@ -67,7 +66,7 @@ def flank_fits(task: PinionTask, stage: Stage) -> dict[Side, FlankFit]:
     """Fits of the flanks of a finished stage."""
     joint = stage.fit
     assert joint is not None
-    held = _held(joint)
+    held = held_words(((e.name, e.low, e.high) for e in joint.entries), joint.fit.held, task.blank)
     found: dict[Side, FlankFit] = {}
     for model, vector, look in zip(stage.models, stage.vectors, joint.looks, strict=True):
         count = model.count
@@ -94,28 +93,6 @@ def flank_fits(task: PinionTask, stage: Stage) -> dict[Side, FlankFit]:
             helpful=_helpful(task, stage, joint, model),
         )
     return found
-
-
-def _held(joint: JointFit) -> tuple[str, ...]:
-    """Unknowns at a bound that would gain by leaving it."""
-    words: list[str] = []
-    for entry, sign in zip(joint.entries, joint.fit.held, strict=True):
-        if sign:
-            bound = entry.high if sign > 0.0 else entry.low
-            end = "upper" if sign > 0.0 else "lower"
-            words.append(f"{entry.name} stands at its {end} bound, {_worded(entry.name, bound)}")
-    return tuple(words)
-
-
-def _worded(name: str, value: float) -> str:
-    """A value of an unknown as a person writes it."""
-    plain = name.rpartition(".")[2]
-    if plain in ANGLES:
-        return f"{degrees(value):.6g} deg"
-    if plain == "ratio_of_roll" or plain.startswith("modified_roll"):
-        return f"{value:.6g}"
-    units = {"helical_motion": "mm/rad", "blade_curvature": "1/mm"}
-    return f"{value:.6g} {units.get(plain, 'mm')}"
 
 
 def _helpful(

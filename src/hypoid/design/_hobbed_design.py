@@ -10,7 +10,7 @@ from hypoid.blank import PairBlank, UndercutLimit, iso_blank
 from hypoid.flank import SIDES, Side
 from hypoid.geometry import DesignError, Problem
 
-from ._design_faults import blank_faults, likely_undercut, short_of_target
+from ._design_faults import blank_faults, likely_undercut, short_of_target, wider
 from ._designed_sheet import SHEET_METHODS, sheet_dials
 from ._hobbed_fit import HobbedFit, fit_hobbed
 from ._hobbed_request import HobbedRequest
@@ -48,6 +48,8 @@ class HobbedDesign:
         """A flank that does not reach its target: how near it came, and what would help."""
         words = short_of_target(side, self.fit.sides[side], self.request)
         words += ", both flanks cut in one setting-up"
+        if self.fit.held:
+            words += f"; {', '.join(self.fit.held)}"
         helpful = [
             f"{name} (rms {1e3 * rms:.1f} um)"
             for name, rms in self.fit.helpful
@@ -76,7 +78,7 @@ def design_hobbed(request: HobbedRequest) -> HobbedDesign:
         given = f'"{request.pinion_method}"'
         expected = (
             "a pinion that the wheel can generate over its face, both flanks in one setting-up: lower the "
-            "offset, the spiral angle or the depth, or take more pinion teeth"
+            "offset, the spiral angle or the depth, or take more pinion teeth" + wider(request)
         )
         raise DesignError([Problem("pinion.method", given, expected, 'method = "tilt"')])
     spec = _spec(request, blank, wheel, fit)

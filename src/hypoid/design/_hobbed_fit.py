@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -14,42 +15,38 @@ from hypoid.flank import SIDES, Side
 from hypoid.machine import MachineSettings
 
 from ._conjugate import Conjugate, conjugate
-from ._fit import EVENED, Fit, Look, evened, gauss_newton, promised
+from ._fit import Fit, promised
 from ._flank_fit import MOST_ADVICE, plain_settings
 from ._hobbed_joint import (
-    BLADES,
     COLUMNS,
     JOINT,
     PLACE,
     JointModel,
     JointSeen,
-    Memory,
-    SideModel,
     joint_model,
-    joint_vector,
 )
 from ._hobbed_request import HobbedRequest
 from ._hobbed_start import Start, conjugate_start, pinion_thickness, plain_start
 from ._hobbed_wheel import HobbedWheel, head_plan
+from ._hobbed_work import BENDS, FEWEST, Stage, begun, evened_out, work_of
 from ._joint_fit import Wish
 from ._milled_wheel import pitch_cone
 from ._motion import motion_of
-from ._pinion_methods import HEAD, METHODS, step_limits
+from ._pinion_methods import (
+    HEAD,
+    held_words,
+)
 from ._pinion_model import UM, target_places
 from ._settings_model import BLADE, MOTIONS, NAMES, ROLL
 from ._target import MotionTarget, Target
 
 Array = np.ndarray[Any, Any]
-FEWEST = 20  # points of a conjugate that a fit needs
-LEADING = math.radians(0.02)  # how firmly tilt is led to zero
-RADIUS_SPREAD = 0.01  # of the head's radius, that a blade's may stray at the price of 1 um
-ANGLE_SPREAD = math.radians(0.5)
 MOTION_PASSES, MOTION_MET = 3, 0.004  # of the depth asked for
 ADVICE = (
     *HEAD,
     *ROLL[:3],
     "helical_motion",
-    *(f"{side}.blade_curvature" for side in SIDES),
+    *BENDS,
     *MOTIONS,
 )
 
@@ -91,6 +88,7 @@ class HobbedFit:
     free: tuple[str, ...]
     sides: Mapping[Side, SideFit]
     fit: Fit
+    held: tuple[str, ...]  # entries that stand at a bound and want out, in words
     helpful: tuple[tuple[str, float], ...]  # entries not free, and the rms in mm that they promise
 
     @property
@@ -115,7 +113,7 @@ def fit_hobbed(
     """Settings and blades of a pinion for a request; None where there is nothing to start from.
 
     From the plain start for a generated wheel, from the wheel's conjugate for a form-cut one; where
-    that does not reach the targets, from the other, too.
+    that does not reach the targets, from the other, too, and then from both once more with patience.
     """
     cone = pitch_cone(blank, "pinion")
     mates: dict[Side, Side] = {"concave": "convex", "convex": "concave"}
@@ -127,14 +125,16 @@ def fit_hobbed(
     thickness = pinion_thickness(blank, request.normal_backlash)
     plan = head_plan(request, blank, request.grind.pinion_curve_radius or 0.0)
     generated = request.wheel_method == "generated"
-    order = ("plain", "conjugate") if generated else ("conjugate", "plain")
+    starts: list[Callable[[], Start | None]] = [
+        lambda: plain_start(plan, blank, thickness),
+        lambda: conjugate_start(plan, blank, wheel),
+    ]
+    order = starts if generated else starts[::-1]
     best: HobbedFit | None = None
-    for which in order:
-        plain = which == "plain"
-        start = (
-            plain_start(plan, blank, thickness) if plain else conjugate_start(plan, blank, wheel)
-        )
-        fit = None if start is None else _fitted(request, blank, start, found, targets, thickness)
+    for patient, begin in product((False, True), order):
+        start, fit = begin(), None
+        if start is not None:
+            fit = _fitted(request, blank, start, found, targets, thickness, patient=patient)
         if best is None or (fit is not None and fit.largest < best.largest):
             best = fit
         if best is not None and best.largest <= request.tolerance:
@@ -149,6 +149,8 @@ def _fitted(
     found: Mapping[Side, Conjugate],
     targets: Mapping[Side, Target],
     thickness: float,
+    *,
+    patient: bool,
 ) -> HobbedFit | None:
     model = joint_model(
         start,
@@ -161,52 +163,25 @@ def _fitted(
     )
     if model is None or min(side.there.sum() for side in model.sides.values()) < FEWEST:
         return None
-    work = _Work(model, request, start)
-    freedom = METHODS[request.pinion_method]
-    bends = request.grind.pinion_curve_radius is None
-    vector, memory = joint_vector(start), model.start
-    limits = work.limits(blank, vector[PLACE["ratio_of_roll"]])
-    own = _entries([n for n in freedom.free if n not in (*ROLL, *MOTIONS, "helical_motion")], bends)
-    stage = work.run(vector, own, {}, memory, limits)
-    if freedom.rest:  # tilt is free on the way, led to zero, then kept there
-        first = tuple(dict.fromkeys((*own, *HEAD)))
-        stage = work.run(vector, first, {}, memory, limits)
-        if stage is not None and abs(stage[0][PLACE["tilt_angle"]]) > 1e-9:
-            lead = {"tilt_angle": Wish(0.0, LEADING)}
-            lead |= {"swivel_angle": Wish(stage[0][PLACE["swivel_angle"]], math.radians(1.0))}
-            stage = work.run(stage[0], first, lead, stage[1].look.memory, limits, steps=80)
-        if stage is not None:
-            rested, swivel = stage[0].copy(), float(stage[0][PLACE["swivel_angle"]])
-            rested[[PLACE[name] for name in freedom.rest]] = 0.0
-            # without tilt the swivel only says where the cutter's turn counts from
-            kept = {
-                side: (s, turn - swivel, phi, root_turn - swivel, root_phi)
-                for side, (s, turn, phi, root_turn, root_phi) in stage[1].look.memory.items()
-            }
-            stage = work.run(rested, own, {}, kept, limits)
+    work = work_of(model, request, start, blank, patient=patient)
+    stage = begun(work)
     if stage is None:
         return None
-    vector, fit = stage
-    free = _entries(freedom.free, bends)
-    more = {name: Wish(0.0, spread) for name, spread in freedom.spreads.items()}
-    if set(free) != set(own):
-        last = work.run(vector, free, more, fit.look.memory, limits)
-        if last is not None:
-            vector, fit = last
+    free, freedom = work.free, work.method
+    more = {n: Wish(0.0, spread) for n, spread in freedom.spreads.items() if n in free}
+    if set(free) != set(work.first):
+        stage = stage.run(free, more) or stage
     aimed = dict(targets)
     for _ in range(MOTION_PASSES):
-        next_aim = _aimed_again(work, vector, fit.look.memory, targets, aimed, blank)
+        next_aim = _aimed_again(stage, targets, aimed, blank)
         if next_aim is None:
             break
         aimed = next_aim
-        last = replace(work, model=_with_targets(model, aimed, blank)).run(
-            vector, free, more, fit.look.memory, limits
-        )
+        last = stage.asked(_with_targets(stage.work.model, aimed, blank)).run(free, more)
         if last is None:
             break
-        vector, fit = last
-    vector, fit = work.evened(vector, fit, free, more, limits)
-    return work.result(vector, fit, free, limits)
+        stage = last.asked(_with_targets(last.work.model, targets, blank))
+    return _result(evened_out(stage, more))
 
 
 def _with_targets(
@@ -221,9 +196,7 @@ def _with_targets(
 
 
 def _aimed_again(
-    work: _Work,
-    vector: Array,
-    memory: Memory,
+    stage: Stage,
     targets: Mapping[Side, Target],
     aimed: Mapping[Side, Target],
     blank: PairBlank,
@@ -232,11 +205,11 @@ def _aimed_again(
 
     The fit is to an ease-off: what it leaves changes the motion that was asked for.
     """
-    seen = work.look(vector, {}, memory)
+    seen = stage.look()
     if seen is None:
         return None
     off, again = False, dict(aimed)
-    for side, own in work.model.sides.items():
+    for side, own in stage.work.model.sides.items():
         target, now = targets[side], aimed[side]
         if not (isinstance(target, MotionTarget) and isinstance(now, MotionTarget)):
             continue
@@ -252,138 +225,53 @@ def _aimed_again(
     return again if off else None
 
 
-def _entries(names: Any, bends: bool) -> tuple[str, ...]:
-    """A method's entries in the joint vector: of the blades, both flanks' own."""
-    made: list[str] = []
-    for name in names:
-        made += [name] if name not in BLADES else [f"{side}.{BLADES[name]}" for side in SIDES]
-    return (*made, *(f"{side}.blade_curvature" for side in SIDES)) if bends else tuple(made)
-
-
-@dataclass(frozen=True)
-class _Work:
-    model: JointModel
-    request: HobbedRequest
-    start: Start
-
-    @property
-    def wishes(self) -> dict[str, Wish]:
-        """Blades near their head's radius and their pressure angle's."""
-        cut, radius = self.start.cut, self.start.plan.radius
-        wished: dict[str, Wish] = {}
-        for i, side in enumerate(SIDES):
-            wished[f"{side}.blade_angle"] = Wish(cut.angles[i], ANGLE_SPREAD)
-            wished[f"{side}.blade_radius"] = Wish(radius, RADIUS_SPREAD * radius)
-        return wished
-
-    def limits(self, blank: PairBlank, ratio: float) -> dict[str, float]:
-        """Greatest change of each entry in one step."""
-        held = step_limits(blank, ratio)
-        own = {name: held[name] for name in NAMES if name not in BLADE}
-        own |= {f"{side}.{BLADES[name]}": held[name] for side in SIDES for name in BLADE}
-        return own
-
-    def look(self, vector: Array, more: Mapping[str, Wish], memory: Memory) -> JointSeen | None:
-        return self.model.look(vector, {**self.wishes, **more}, memory)
-
-    def run(
-        self,
-        vector: Array,
-        free: tuple[str, ...],
-        more: Mapping[str, Wish],
-        memory: Any,
-        limits: Mapping[str, float],
-        steps: int = 60,
-    ) -> tuple[Array, Fit] | None:
-        """One stage: these entries free, with these wishes beside the blades'."""
-        index = [PLACE[name] for name in free]
-
-        def full(x: Array) -> Array:
-            whole = vector.copy()
-            whole[index] = x
-            return whole
-
-        def model(x: Array, memory: Any) -> Look | None:
-            seen = self.look(full(x), more, memory)
-            if seen is None:
-                return None
-            return Look(seen.residual, seen.jacobian[:, index], seen.memory)
-
-        scale = np.array([limits[name] for name in free])
-        fit = gauss_newton(model, vector[index], memory, scale, steps=steps)
-        return None if fit is None else (full(fit.x), fit)
-
-    def evened(
-        self,
-        vector: Array,
-        fit: Fit,
-        free: tuple[str, ...],
-        more: Mapping[str, Wish],
-        limits: Mapping[str, float],
-    ) -> tuple[Array, Fit]:
-        """Where a fit ended, or nearer to the least greatest residual if that meets the tolerance, and it does not."""
-        squares, model = (vector, fit), self.model
-        for _ in range(EVENED):
-            seen = self.look(vector, {}, fit.look.memory)
-            if seen is None:
-                break
-            left = {side: seen.misfit[side][own.there] for side, own in model.sides.items()}
-            greatest = max(float(np.abs(v).max()) for v in left.values())
-            if greatest <= self.request.tolerance:
-                return vector, fit
-            sides: dict[Side, SideModel] = {}
-            for side, own in model.sides.items():
-                weight = own.weight.copy()
-                weight[own.there] = evened(weight[own.there], left[side], greatest)
-                sides[side] = replace(own, weight=weight)
-            model = replace(model, sides=sides)
-            found = replace(self, model=model).run(vector, free, more, fit.look.memory, limits)
-            if found is None:
-                break
-            vector, fit = found
-        return squares
-
-    def result(
-        self, vector: Array, fit: Fit, free: tuple[str, ...], limits: Mapping[str, float]
-    ) -> HobbedFit | None:
-        model = self.model
-        seen = self.look(vector, {}, fit.look.memory)
-        if seen is None:
-            return None
-        sides: dict[Side, SideFit] = {}
-        for side, own in model.sides.items():
-            residual = np.where(own.there, seen.misfit[side], np.nan)
-            c = own.conjugate
-            sides[side] = SideFit(
-                side, c.distance, c.height, residual, own.wanted, seen.root_error[side]
-            )
-        plan, spacing, thickness = self.start.plan, None, seen.thickness
-        ratio = plan.groups / model.teeth
-        if not model.weigh_thickness:  # a later inner blade turns its flank back by R_b
-            spacing = plan.spacing - (model.thickness - thickness) / (model.across * ratio)
-            thickness = model.thickness
-        blades = vector[len(NAMES) - len(BLADE) :].reshape(2, len(BLADE))
-        settings = replace(plain_settings(vector[COLUMNS["concave"]]), roll_to_blade_ratio=ratio)
-        return HobbedFit(
-            settings=settings,
-            radii=(float(blades[0, 0]), float(blades[1, 0])),
-            angles=(float(blades[0, 1]), float(blades[1, 1])),
-            curvatures=(float(blades[0, 2]), float(blades[1, 2])),
-            height=self.start.cut.height,
-            spacing=spacing,
-            thickness=thickness,
-            vector=vector,
-            free=free,
-            sides=sides,
-            fit=fit,
-            helpful=_helpful(model, seen, free, limits),
+def _result(stage: Stage) -> HobbedFit | None:
+    work, vector, fit = stage.work, stage.vector, stage.fit
+    model, free, seen = work.model, work.free, stage.look()
+    if seen is None:
+        return None
+    sides: dict[Side, SideFit] = {}
+    for side, own in model.sides.items():
+        residual = np.where(own.there, seen.misfit[side], np.nan)
+        c = own.conjugate
+        sides[side] = SideFit(
+            side, c.distance, c.height, residual, own.wanted, seen.root_error[side]
         )
+    plan, spacing, thickness = work.start.plan, None, seen.thickness
+    ratio = plan.groups / model.teeth
+    if not model.weigh_thickness:  # a later inner blade turns its flank back by R_b
+        spacing = plan.spacing - (model.thickness - thickness) / (model.across * ratio)
+        thickness = model.thickness
+    blades = vector[len(NAMES) - len(BLADE) :].reshape(2, len(BLADE))
+    settings = replace(plain_settings(vector[COLUMNS["concave"]]), roll_to_blade_ratio=ratio)
+    return HobbedFit(
+        settings=settings,
+        radii=(float(blades[0, 0]), float(blades[1, 0])),
+        angles=(float(blades[0, 1]), float(blades[1, 1])),
+        curvatures=(float(blades[0, 2]), float(blades[1, 2])),
+        height=work.start.cut.height,
+        spacing=spacing,
+        thickness=thickness,
+        vector=vector,
+        free=free,
+        sides=sides,
+        fit=fit,
+        held=held_words(((n, *work.ends(n)) for n in free), fit.held, work.blank),
+        helpful=_helpful(model, seen, free, fit.held, work.limits),
+    )
 
 
 def _helpful(
-    model: JointModel, seen: JointSeen, free: tuple[str, ...], limits: Mapping[str, float]
+    model: JointModel,
+    seen: JointSeen,
+    free: tuple[str, ...],
+    held: Array,
+    limits: Mapping[str, float],
 ) -> tuple[tuple[str, float], ...]:
-    """What one more free entry would leave of the residual, by one linear step, the best first."""
+    """What one more free entry would leave of the residual, by one linear step, the best first.
+
+    Entries that do not move, and those that a bound holds.
+    """
     scale = np.array([limits[name] for name in JOINT])
     mine: list[int] = []
     at = 0
@@ -392,7 +280,8 @@ def _helpful(
         mine += range(at, at + count)
         at += count + len(model.root_distance)
     names = [*free, *(name for name in ADVICE if name not in free)]
-    moving = np.arange(len(names)) < len(free)
+    moving = np.zeros(len(names), bool)
+    moving[: len(free)] = held == 0.0
     columns = (seen.jacobian * scale)[:, [PLACE[name] for name in names]]
     found = promised(columns, seen.residual, moving, mine)
     best = sorted(found.items(), key=lambda entry: entry[1])[:MOST_ADVICE]

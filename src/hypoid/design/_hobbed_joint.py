@@ -8,7 +8,7 @@ blank's root line, the tooth's thickness at the mean point, and wishes.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import cos, pi
 from typing import Any
 
@@ -78,6 +78,7 @@ class JointSeen:
     misfit: Mapping[Side, Array]  # (n,) mm, ease-off less its target, all points
     root_error: Mapping[Side, Array]  # (3,) mm
     thickness: float  # normal, at the mean point, mm
+    upright: Mapping[Side, Array]  # (n,) of the flank against the mean point's: 0 where it folds
 
 
 @dataclass(frozen=True)
@@ -95,6 +96,16 @@ class JointModel:
     weigh_thickness: bool  # not where the blades' spacing makes it
     start: Memory
 
+    def only(self, there: Mapping[Side, Array]) -> JointModel:
+        """The model without the points that do not count any more."""
+        sides = {
+            side: replace(
+                own, there=there[side], z=_kept(own.z, there[side]), rho=_kept(own.rho, there[side])
+            )
+            for side, own in self.sides.items()
+        }
+        return replace(self, sides=sides)
+
     def look(self, vector: Array, wishes: Mapping[str, Wish], memory: Memory) -> JointSeen | None:
         """Residuals and Jacobian at a joint vector; None where a flank or its root cannot be found."""
         rows: list[Array] = []
@@ -102,6 +113,7 @@ class JointModel:
         kept: dict[Side, tuple[Array, Array, Array, Array, Array]] = {}
         misfit: dict[Side, Array] = {}
         off_root: dict[Side, Array] = {}
+        upright: dict[Side, Array] = {}
         at_mean: dict[Side, tuple[float, Array]] = {}
         for side, model in self.sides.items():
             c, columns = model.conjugate, COLUMNS[side]
@@ -120,6 +132,7 @@ class JointModel:
             slopes = -(turned[:, :-1] - turned[:, c.middle : c.middle + 1]) * c.lever
             misfit[side] = ease_off - (model.wanted - model.wanted[c.middle])
             off_root[side] = root[2] - self.root_height
+            upright[side] = got[6][:-1] / got[6][-1]
             weight = model.weight[model.there] / UM
             rows += [
                 weight * misfit[side][model.there],
@@ -145,7 +158,20 @@ class JointModel:
         residual, jacobian = np.concatenate(rows), np.concatenate(lines)
         if not (np.isfinite(residual).all() and np.isfinite(jacobian).all()):
             return None
-        return JointSeen(residual, jacobian, kept, misfit, off_root, thickness)
+        return JointSeen(residual, jacobian, kept, misfit, off_root, thickness, upright)
+
+
+def placed(memory: Memory, there: Mapping[Side, Array]) -> Memory:
+    """Where Newton starts with points that do not count any more: they are asked for at the mean point."""
+    return {
+        side: (*(_kept(at, there[side]) for at in (s, turn, phi)), *root)
+        for side, (s, turn, phi, *root) in memory.items()
+    }  # pyright: ignore[reportReturnType]
+
+
+def _kept(values: Array, there: Array) -> Array:
+    """Values (n + 1,), of points that count, and the mean point's, the last, of those that do not."""
+    return np.where(np.append(there, True), values, values[-1])
 
 
 def _spread(rows: Array, columns: Array) -> Array:

@@ -10,10 +10,13 @@ from hypoid.blank import BlankRequest
 from hypoid.geometry import Problem
 
 from ._milled_request import WheelMethod
+from ._pinion_limits import BLADES_HOBBED, PinionLimits
 from ._spec import Assumption
 from ._target import EaseOffTarget, Target
 
 HobbedMethod = Literal["tilt", "modified-roll", "generated", "helical", "universal"]
+NO_HOBBER = "these machines cut slot by slot; pinion.range bounds settings here"
+CURVED = "pinion.curve_radius gives the blades their curve"
 
 
 @dataclass(frozen=True)
@@ -56,12 +59,20 @@ class HobbedRequest:
     tolerance: float = 0.005
     wheel_edge_radius: float | None = None  # None: what AGMA 929 leaves, up to 0.3 modules
     pinion_edge_radius: float | None = None
+    limits: PinionLimits = field(default_factory=PinionLimits)
     normal_backlash: float = 0.15
     marking_thickness: float = 0.00635
 
     def problems(self) -> list[Problem]:
         """What makes no sense beside the blank's numbers."""
         found = [*self.drive.problems("contact.drive"), *self.coast.problems("contact.coast")]
+        found += self.limits.problems(BLADES_HOBBED)
+        if self.limits.machine:
+            given, expected = f'"{self.limits.machine}"', f"nothing: {NO_HOBBER}"
+            found.append(Problem("pinion.machine", given, expected, f"# machine = {given}"))
+        if "blade_curvature" in self.limits.free and self.grind.pinion_curve_radius:
+            expected = f"no blade_curvature: {CURVED}"
+            found.append(Problem("pinion.free", '"blade_curvature"', expected, "# free"))
         methods = get_args(HobbedMethod)
         if self.pinion_method not in methods:
             expected = (

@@ -11,7 +11,7 @@ from hypoid.blank import PairBlank, UndercutLimit, iso_blank
 from hypoid.flank import SIDES, Side
 from hypoid.geometry import DesignError, Problem
 
-from ._design_faults import blank_faults, likely_undercut, short_of_target
+from ._design_faults import blank_faults, likely_undercut, short_of_target, wider
 from ._designed_sheet import SHEET_METHODS, sheet_dials
 from ._flank_fit import FlankFit
 from ._member_blanks import given_blank
@@ -73,7 +73,7 @@ def design_milled(request: MilledRequest) -> MilledDesign:
         given = f'"{request.pinion_method}" ({" and ".join(lost)})'
         expected = (
             "a pinion flank that the wheel can generate over its face: lower the offset, the spiral angle "
-            "or the depth, or take more pinion teeth"
+            "or the depth, or take more pinion teeth" + wider(request)
         )
         raise DesignError([Problem("pinion.method", given, expected, 'method = "tilt"')])
     return MilledDesign(

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from hypoid.blank import PairBlank
 from hypoid.machine import MACHINES
 
 from ._joint_fit import Entry, Wish, own, shared
-from ._milled_request import PinionLimits
+from ._pinion_limits import PinionLimits, worded
 from ._settings_model import ANGLES, INDEX, MOTIONS, ROLL
 
 BASE = (
@@ -23,6 +23,8 @@ CURVE = "blade_curvature"
 BEND = 1.0 / 300.0  # 1/mm, about zero: blades of one cutter may be curved
 BENT = math.radians(10.0)  # either way, from a curved blade's tips to a whole depth above them
 BLADES = math.radians(1.0), math.radians(45.0)  # blade angles that cutters are ground to
+LEADING = math.radians(0.02)  # how firmly an angle is led to a value
+LED = 0.02  # of a step limit: the same for what is no angle
 LEAST_POINT = 0.15  # of the mean normal module: a blade's point must stand
 SIDES = ("concave", "convex")
 
@@ -121,6 +123,13 @@ def chain_value(name: str, value: float, blank: PairBlank) -> float:
     return value
 
 
+def sheet_value(name: str, value: float, blank: PairBlank) -> float:
+    """A setting of the chain in the signs of the summary sheet."""
+    if name == "machine_center_to_back":
+        return value - blank.pinion.pitch_apex_beyond_crossing_point
+    return chain_value(name, value, blank)
+
+
 def bounds_of(limits: PinionLimits, blank: PairBlank) -> Bounds:
     """Bounds on entries, chain's signs: what blades can be, and the request's machine's and its own."""
     bounds = machine_bounds(limits.machine) if limits.machine else {}
@@ -132,6 +141,50 @@ def bounds_of(limits: PinionLimits, blank: PairBlank) -> Bounds:
         bounds[name] = max(low, least), min(high, most)
     bounds |= {name: (v, v) for name, v in limits.fixed.items() if name not in INDEX}
     return bounds
+
+
+def goals(
+    method: Freedom,
+    fixed: Mapping[str, float],
+    bounds: Bounds,
+    values: Mapping[str, Sequence[float]],
+) -> dict[str, float]:
+    """Entries that a fit must be led to: what the method has not, what is fixed, and the nearest bound.
+
+    ``values`` are what flanks have, one each, of every entry that may be led.
+    """
+
+    def within(name: str, value: float) -> float:
+        low, high = _of(bounds, name)
+        return min(max(value, low), high)
+
+    found = {name: within(name, 0.0) for name in method.rest} | dict(fixed)
+    for name, has in values.items():
+        low, high = _of(bounds, name)
+        if name not in found and (min(has) < low or max(has) > high):
+            found[name] = within(name, sum(has) / len(has))
+    return found
+
+
+def lead(to: Mapping[str, float], limits: Mapping[str, float]) -> dict[str, Wish]:
+    """Wishes that lead entries to values."""
+    return {
+        name: Wish(value, LEADING if "angle" in name else LED * limits[name])
+        for name, value in to.items()
+    }
+
+
+def held_words(
+    entries: Iterable[tuple[str, float, float]], held: Iterable[float], blank: PairBlank
+) -> tuple[str, ...]:
+    """Unknowns (name, low, high) at a bound that would gain by leaving it, in the sheet's signs."""
+    words: list[str] = []
+    for (name, low, high), sign in zip(entries, held, strict=True):
+        if sign:
+            upper = (sign > 0.0) != (name == "blank_offset")  # the sheet's sign is the other one
+            bound = worded(name, sheet_value(name, high if sign > 0.0 else low, blank))
+            words.append(f"{name} stands at its {'upper' if upper else 'lower'} bound, {bound}")
+    return tuple(words)
 
 
 def entries_of(

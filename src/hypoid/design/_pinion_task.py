@@ -25,15 +25,15 @@ from ._pinion_methods import (
     bounds_of,
     chain_value,
     entries_of,
+    lead,
     step_limits,
 )
+from ._pinion_methods import goals as goals_of
 from ._pinion_model import FOLDING, ROOT_PLACES, PinionModel, Seen
-from ._settings_model import ANGLES, INDEX
+from ._settings_model import INDEX
 from ._target import Target
 
 Array = np.ndarray[Any, Any]
-LEADING = math.radians(0.02)  # how firmly an angle is led to a value
-LED = 0.02  # of a step limit: the same for what is no angle
 BACKLASH = 0.002  # mm, how far a slot's backlash may stray
 FEWEST = 20  # points of the conjugate that a fit needs
 UNFOLDINGS = 4  # runs of a stage, each without the places that folded in the last
@@ -214,27 +214,19 @@ def _slot_tie(task: PinionTask, stage: Stage) -> Any:
 
 
 def goals(task: PinionTask, stage: Stage) -> dict[str, float]:
-    """Entries that a fit must be led to: what the method has not, what is fixed, and the nearest bound."""
-    found = dict.fromkeys(task.method.rest, 0.0) | dict(task.fixed)
+    """Entries that a fit must be led to."""
+    values = {name: [float(v[k]) for v in stage.vectors] for name, k in INDEX.items()}
+    fixed = dict(task.fixed)
     if task.method.root_plane:
-        found["machine_root_angle"] = task.blank.pinion.root_angle
-    for name, (low, high) in task.bounds.items():
-        if name in INDEX and name not in found:
-            values = [v[INDEX[name]] for v in stage.vectors]
-            if min(values) < low or max(values) > high:
-                found[name] = min(max(float(np.mean(values)), low), high)
-    return found
+        fixed["machine_root_angle"] = task.blank.pinion.root_angle
+    return goals_of(task.method, fixed, task.bounds, values)
 
 
 def led(task: PinionTask, stage: Stage, to: Mapping[str, float]) -> Stage | None:
     """The stage with entries led to values by wishes, and then put there."""
     if not to:
         return stage
-    wishes = {
-        name: Wish(value, LEADING if name in ANGLES else LED * task.limits[name])
-        for name, value in to.items()
-        if name in INDEX
-    }
+    wishes = lead({name: value for name, value in to.items() if name in INDEX}, task.limits)
     if "swivel_angle" not in to:  # it means less and less while the tilt goes to nothing
         at = INDEX["swivel_angle"]
         middle = float(np.mean([v[at] for v in stage.vectors]))

@@ -73,6 +73,7 @@ def hobbed_text(design: HobbedDesign) -> str:
             f"  root as cut less the blank's: {low:.0f} um at the toe, {mean:.0f} at the mean point, "
             f"{high:.0f} at the heel"
         )
+    remarks += list(fit.held)
     remarks += [f"Not determined by the target: {words}" for words in fit.undetermined]
     return _text(design.spec, pinion, wheel, remarks)
 

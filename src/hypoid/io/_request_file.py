@@ -84,6 +84,7 @@ class FixedTable(Table):
     point_radius: Length | None = any_length("62 mm")
     cutter_radius: Length | None = any_length("63.5 mm")
     point_width: Length | None = any_length("1.6 mm")
+    blade_radius: Length | None = any_length("88 mm")
 
 
 def _range(example: list[str]) -> object:
@@ -106,6 +107,7 @@ class RangeTable(Table):
     point_radius: list[Length] | None = _range(["55 mm", "70 mm"])  # pyright: ignore[reportAssignmentType]
     cutter_radius: list[Length] | None = _range(["60 mm", "67 mm"])  # pyright: ignore[reportAssignmentType]
     point_width: list[Length] | None = _range(["1.2 mm", "2 mm"])  # pyright: ignore[reportAssignmentType]
+    blade_radius: list[Length] | None = _range(["87 mm", "89 mm"])  # pyright: ignore[reportAssignmentType]
 
 
 class RequestPinion(Table):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from math import degrees, sin
 
-from hypoid.design import Assumption, ExactFaceHobbedSpec, StickGrind
+from hypoid.design import CURVED, NO_HOBBER, Assumption, ExactFaceHobbedSpec, StickGrind
 from hypoid.geometry import Problem
 
 from ._document import Document, assigned, left_out, number_at, shown, table_at, value_at
@@ -22,6 +22,7 @@ _NOT_EXACT = (
     *("pinion.edge_radius", "wheel.edge_radius", "blank.thickness_factor"),
     *("blank.addendum_coefficient", "blank.dedendum_coefficient", "blank.profile_shift"),
     *("blank.thickness_modification", "blank.wheel_addendum_angle", "blank.wheel_dedendum_angle"),
+    *("pinion.free", "pinion.fixed", "pinion.range"),
     *("contact.tolerance", "contact.drive", "contact.coast"),
 )
 _METHODS = ("tilt", "modified-roll", "generated", "helical", "universal")
@@ -48,6 +49,12 @@ def hobbing_rules(document: Document) -> Iterator[Problem]:
             f"one of {', '.join(_METHODS)}: a face-hob head cuts both flanks in one setting-up"
         )
         yield Problem("pinion.method", shown(method), expected, assigned("method", "tilt"))
+    pinion = table_at(document, "pinion")
+    if "machine" in pinion:
+        yield _unwanted("pinion.machine", pinion["machine"], f"nothing: {NO_HOBBER}")
+    free = pinion.get("free")
+    if "curve_radius" in pinion and isinstance(free, list) and "blade_curvature" in free:
+        yield _unwanted("pinion.free", free, f"no blade_curvature: {CURVED}")
     yield from _slope(document)
     for member in ("pinion", "wheel"):
         if number_at(document, f"{member}.curve_radius", "length") == 0.0:

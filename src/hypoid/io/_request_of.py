@@ -82,6 +82,7 @@ def request_of(file: RequestFile) -> MilledRequest | HobbedRequest | ExactFaceHo
         "tolerance": contact.tolerance,
         "wheel_edge_radius": wheel.edge_radius,
         "pinion_edge_radius": pinion.edge_radius,
+        "limits": _limits(pinion),
         "normal_backlash": file.pair.normal_backlash,
         "marking_thickness": contact.marking_thickness,
     }
@@ -89,7 +90,7 @@ def request_of(file: RequestFile) -> MilledRequest | HobbedRequest | ExactFaceHo
         return HobbedRequest(
             **common, grind=grind_of(file), equal_spacing=cutting.equal_spacing is not False
         )
-    return MilledRequest(**common, limits=_limits(pinion))
+    return MilledRequest(**common)
 
 
 def _limits(pinion: RequestPinion) -> PinionLimits:

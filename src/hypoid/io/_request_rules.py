@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from hypoid.design import FREE, TOGETHER
+from hypoid.design import BLADES_APART, BLADES_HOBBED, BLADES_TOGETHER, FREE, TOGETHER
 from hypoid.geometry import Problem
 
 from ._document import Document, assigned, left_out, number_at, shown, table_at, value_at
@@ -19,6 +19,9 @@ EASE_OFF = (
     "relief_from",
 )  # fmt: skip
 MOTION = ("transmission_error", "pattern_length", "place", "path_tilt")
+BLADE_KEYS = tuple(
+    key for keys, _ in (BLADES_APART, BLADES_TOGETHER, BLADES_HOBBED) for key in keys
+)
 _TAPERS = ("wheel_addendum_angle", "wheel_dedendum_angle")
 
 
@@ -122,23 +125,22 @@ def _target(document: Document, path: str) -> Iterator[Problem]:
 
 
 def _pinion_limits(document: Document) -> Iterator[Problem]:
-    """Which settings may move: names that there are, and no joint cutter where flanks are cut one by one."""
+    """Which settings may move: names that there are, and blades as they are placed."""
     pinion = table_at(document, "pinion")
     free = pinion.get("free")
     for name in free if isinstance(free, list) else ():
         if name not in FREE:
             expected = "names among " + ", ".join(FREE)
             yield Problem("pinion.free", shown(name), expected, 'free = ["blade_curvature"]')
-    together = pinion.get("method") in TOGETHER
+    blades = BLADES_TOGETHER if pinion.get("method") in TOGETHER else BLADES_APART
+    if value_at(document, ("cutting", "process")) == "face-hobbed":
+        blades = BLADES_HOBBED
+    keys, why = blades
     for table in ("fixed", "range"):
-        for name in ("cutter_radius", "point_width", "point_radius"):
+        for name in BLADE_KEYS:
             value = table_at(document, f"pinion.{table}").get(name)
-            if value is not None and together == (name == "point_radius"):
-                expected = (
-                    "cutter_radius and point_width: one cutter cuts both flanks"
-                    if together
-                    else "point_radius: each flank has its own cutter with this method"
-                )
+            if value is not None and name not in keys:
+                expected = f"{' and '.join(keys)}: {why}"
                 yield Problem(
                     f"pinion.{table}.{name}", shown(value), expected, left_out(name, value)
                 )
