@@ -249,7 +249,7 @@ def test_a_start_that_leans_the_cutter_the_wrong_way_is_left() -> None:
     """12 x 31 at 73.5 deg: tilt is wanted across the swivel that both starts have, and places fold on the way.
 
     Number 275 of the random blanks, which kept 38 um: the cutter's axis stayed upright, where swivel moves
-    nothing. Leaving the places that fold may not be the way to the tolerance: most of them still count.
+    nothing. Places that fold are left out, but only a few.
     """
     crowned = EaseOffTarget(0.0192, 0.0128)
     blank = BlankRequest(
