@@ -37,10 +37,15 @@ from hypoid.pair import GearPair
 EXAMPLE = Path(__file__).parent.parent / "examples" / "gonzalez-fuentes-2022-relief.toml"
 
 
-def solved(model: ContactModel, folder: Path) -> float:
+def overlap(position: LoadedPosition, stiffness: float, torque: float) -> float:
+    """What a pressure per overlap (N/mm3) adds to a rotation, rad: its work under the pressures found here."""
+    return sum(float(p.pressure**2 @ p.area) for p in position.pairs) / (stiffness * torque)
+
+
+def solved(model: ContactModel, folder: Path, stiffness: float) -> float:
     """CalculiX on a model in `folder`, unless it was there already; its CPU time, s, as far as that is known."""
     folder.mkdir(parents=True, exist_ok=True)
-    text, job = contact_text(model), folder / "contact.inp"
+    text, job = contact_text(model, stiffness), folder / "contact.inp"
     taken = folder / "cpu-seconds"
     if not (taken.exists() and job.exists() and job.read_text() == text):
         job.write_text(text)
@@ -91,6 +96,7 @@ def main() -> None:
     given.add_argument("--elements", default="8,5,2,2,1,1", help="as the fields of Elements")
     given.add_argument("--design", type=Path, default=EXAMPLE)
     given.add_argument("--finer", type=int, default=1, help="elements for one where pairs bear")
+    given.add_argument("--stiffness", type=float, default=1e7, help="pressure per overlap, N/mm3")
     given.add_argument("--teeth", type=int, default=5)
     given.add_argument("--keep", type=Path, help="a JSON file for the answer")
     asked = given.parse_args()
@@ -100,7 +106,7 @@ def main() -> None:
     model = contact_model(
         pair, "drive", torque, teeth=asked.teeth, elements=sizes, finer=asked.finer
     )
-    spent = solved(model, asked.folder)
+    spent = solved(model, asked.folder, asked.stiffness)
     theirs = read_contact(asked.folder / "contact.dat", model)
     if asked.keep is not None:
         asked.keep.write_text(json.dumps(kept(model, theirs, asked.finer), indent=1) + "\n")
@@ -110,8 +116,10 @@ def main() -> None:
         f"elements {model.elements}\nnodes {nodes[0]} + {nodes[1]}, teeth {model.pinion.teeth} + {model.wheel.teeth}"
     )
     print(f"faces off the flank by {1e3 * max(model.surface_error):.2f} um")
+    more = overlap(position, asked.stiffness, torque)
     print(
-        f"rotation: CalculiX {1e6 * theirs.rotation:.1f} urad, here {1e6 * position.rotation:.1f}"
+        f"rotation: CalculiX {1e6 * theirs.rotation:.1f} urad, here {1e6 * position.rotation:.1f}, "
+        f"with as much overlap {1e6 * (position.rotation + more):.1f}"
     )
     print(f"moments of the contact miss the torque by {1e2 * theirs.balance:.3f} %")
     print(f"CPU s: CalculiX {spent:.0f}, compliance {made:.1f}, one position here {one:.2f}")

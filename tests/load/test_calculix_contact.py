@@ -16,6 +16,7 @@ import pytest
 from hypoid.contact import Sampling, angle_field, unloaded_contact
 from hypoid.geometry import DesignError
 from hypoid.io import contact_text, read_contact, write_contact
+from hypoid.io._calculix import STIFFNESS
 from hypoid.load import (
     ContactAnswer,
     ContactModel,
@@ -246,7 +247,8 @@ def test_rotation_against_calculix(answer: ContactAnswer, ours: Any) -> None:
 def test_finer_elements_come_near_in_all(model: ContactModel, ours: Any) -> None:
     """Six elements for one where pairs bear, 57 000 nodes, once run: rotation, shares and line loads."""
     answer = kept_answer(model, FINER, 6)
-    assert answer.rotation == pytest.approx(ours.rotation, rel=0.05)
+    overlap = sum(float(p.pressure**2 @ p.area) for p in ours.pairs) / (STIFFNESS * TORQUE)
+    assert answer.rotation == pytest.approx(ours.rotation + overlap, rel=0.05)
     width = hat_widths(answer.distance)
     for theirs in answer.pairs:
         load: PairLoad = next(p for p in ours.pairs if p.pair == theirs.pair)

@@ -24,18 +24,22 @@ Array = np.ndarray[Any, Any]
 STIFFNESS = 1e7  # N/mm3, pressure per overlap: see `_contact`
 
 
-def write_contact(model: ContactModel, path: str | Path) -> Path:
-    """Write a model as `.inp`, whole or not at all; run it with `ccx NAME` (without the ending)."""
+def write_contact(model: ContactModel, path: str | Path, *, stiffness: float = STIFFNESS) -> Path:
+    """Write a model as `.inp`, whole or not at all; run it with `ccx NAME` (without the ending).
+
+    `stiffness` is pressure per overlap, N/mm3: a lower one than the usual evens the pressures of small elements out.
+    """
     suffix = Path(path).suffix.lower()
     if suffix != ".inp":
         given = f"the ending {suffix!r}" if suffix else "no ending"
         raise DesignError([Problem(str(path), given, "a .inp file", "contact.inp")])
-    return write_text(path, contact_text(model))
+    return write_text(path, contact_text(model, stiffness))
 
 
-def contact_text(model: ContactModel) -> str:
+def contact_text(model: ContactModel, stiffness: float = STIFFNESS) -> str:
     """The whole input."""
-    return "\n".join((*_heading(model), *_bodies(model), *_contact(model), *_steps(model))) + "\n"
+    parts = _heading(model), _bodies(model), _contact(model, stiffness), _steps(model)
+    return "\n".join(line for part in parts for line in part) + "\n"
 
 
 def _heading(model: ContactModel) -> Iterator[str]:
@@ -96,15 +100,15 @@ def _equations(split: SplitMesh, after: int) -> Iterator[str]:
                 yield ", ".join(part)
 
 
-def _contact(model: ContactModel) -> Iterator[str]:
-    """Surfaces and pairs; under 1000 MPa they overlap by 0.1 um, a hundredth of what teeth approach by."""
+def _contact(model: ContactModel, stiffness: float) -> Iterator[str]:
+    """Surfaces and pairs; under 1000 MPa they usually overlap by 0.1 um, a hundredth of what teeth approach by."""
     after = len(model.pinion.elements)
     for met in model.pairs:
         for member, faces, e in (("p", met.pinion_faces, 0), ("w", met.wheel_faces, after)):
             yield from _surface(_named(member, met.pair), faces, e)
     yield "*SURFACE INTERACTION, NAME=flanks"
     yield "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR"
-    yield f"{STIFFNESS:.6g}"
+    yield f"{stiffness:.6g}"
     for met in model.pairs:
         yield "*CONTACT PAIR, INTERACTION=flanks, TYPE=SURFACE TO SURFACE"
         yield f"{_named('p', met.pair)}, {_named('w', met.pair)}"
