@@ -11,16 +11,14 @@ from ._cells import Teeth
 from ._patch import Meeting, Patch, Window
 
 Array = np.ndarray[Any, Any]
-GROW, MARGIN = 0.3, 0.1  # of its length: a contact's side at a border moves out, others stand off
-CLEAR, FREE = (
+GROW = 0.3  # of a window's length by which a border moves out that the contact touches
+MARGIN, CLEAR = (
+    0.1,
     1.0,
-    2.0,
-)  # cells that those stand off at least, and where the other side is at a border
+)  # of a contact's length, and cells, at least: what it stands off the borders
 USED = 0.55  # of a window's length that the contact fills, at least
 SPARE = (2.5, 1.6)  # cells, along and across, that a contact foretold stands off every border
-MOST = (
-    0.3  # of its length by which an end of a contact is thought to move from position to position
-)
+MOST = 0.3  # of a contact's length by which its ends are thought to move from position to position
 FILLED = 0.45  # share of a patch, nearest first, that is thought to touch
 
 
