@@ -10,7 +10,7 @@ from scipy.sparse.linalg import spsolve
 
 from hypoid.load import STEEL
 from hypoid.load._bricks import nodal_stress, stiffness
-from hypoid.solid._hex_quality import node_places
+from hypoid.solid._split import _lattice
 
 Array = np.ndarray[Any, Any]
 RATES = np.array([np.sqrt(2.0), 1.0, 1.0])  # of sin, exp, exp: a harmonic function of x, y and z
@@ -36,13 +36,9 @@ def exact_stress(at: Array) -> Array:
 
 def block(n: int) -> tuple[Array, Array]:
     """Nodes (m, 3) and elements (n**3, 20) of a cube of 1 mm, its inside sheared and bent."""
-    index = 2 * np.array(list(product(range(n), repeat=3)))[:, None] + 1
-    index = index + node_places(20).astype(int)
-    flat = np.ravel_multi_index(tuple(np.moveaxis(index, -1, 0)), (2 * n + 1,) * 3)
-    used, elements = np.unique(flat, return_inverse=True)
-    grid = np.stack(np.unravel_index(used, (2 * n + 1,) * 3), axis=1) / (2.0 * n)
+    grid, elements = _lattice([np.linspace(0.0, 1.0, n + 1)] * 3)
     bump = 0.15 * np.prod(np.sin(np.pi * grid), axis=1)
-    return grid + bump[:, None] * [1.0, -0.7, 0.4], elements.reshape(flat.shape)
+    return grid + bump[:, None] * [1.0, -0.7, 0.4], elements
 
 
 def solved(n: int) -> tuple[float, float, float]:

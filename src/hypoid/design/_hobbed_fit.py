@@ -32,10 +32,7 @@ from ._hobbed_work import BENDS, FEWEST, Stage, begun, evened_out, work_of
 from ._joint_fit import Wish
 from ._milled_wheel import pitch_cone
 from ._motion import motion_of
-from ._pinion_methods import (
-    HEAD,
-    held_words,
-)
+from ._pinion_methods import HEAD, held_words
 from ._pinion_model import UM, target_places
 from ._settings_model import BLADE, MOTIONS, NAMES, ROLL
 from ._target import MotionTarget, Target

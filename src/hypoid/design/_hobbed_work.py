@@ -79,9 +79,7 @@ class Work:
     fixed: Mapping[str, float]  # chain's signs
     bounds: Bounds  # chain's signs
     limits: Mapping[str, float]  # greatest change of each entry in one step
-    patient: (
-        bool  # leaves out places that fold on the way, turns the swivel first, takes more steps
-    )
+    patient: bool  # leaves out places that fold, turns the swivel first, takes more steps
 
     @property
     def wishes(self) -> dict[str, Wish]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -31,7 +32,7 @@ def finer_under(
     made = split_under(mesh, np.concatenate(chosen), finer, half, max(DEEP, half))
     small = made.mesh.face_sets[f"{flank.side}_flank"]
     small = small[made.split[small[:, 0]]]
-    _onto(made, flank, small)
+    made = _onto(made, flank, small)
     tooth = made.mesh.tooth[small[:, 0]]
     of = {pair: mesh.tooth[faces[pair][0, 0]] for pair in reach}
     return made, {pair: small[tooth == number] for pair, number in of.items()}
@@ -46,8 +47,8 @@ def _within(mesh: HexMesh, flank: Flank, faces: Array, low: float, high: float) 
     return faces[there]
 
 
-def _onto(made: SplitMesh, flank: Flank, small: Array) -> None:
-    """Turn the nodes of small faces onto the exact flank, but for those that hang on large faces."""
+def _onto(made: SplitMesh, flank: Flank, small: Array) -> SplitMesh:
+    """With the nodes of small faces turned onto the exact flank, but for those that hang on large faces."""
     mesh = made.mesh
     free = np.setdiff1d(face_nodes(mesh.elements, small), made.hung)
     x, y, z = mesh.nodes[free].T
@@ -58,4 +59,6 @@ def _onto(made: SplitMesh, flank: Flank, small: Array) -> None:
     turn = (turn + 0.5 * mesh.pitch) % mesh.pitch - 0.5 * mesh.pitch  # teeth are a pitch apart
     turn = np.where(exact.ok, turn, 0.0)
     c, s = np.cos(turn), np.sin(turn)
-    mesh.nodes[free] = np.stack([c * x - s * y, s * x + c * y, z], axis=1)
+    nodes = mesh.nodes.copy()
+    nodes[free] = np.stack([c * x - s * y, s * x + c * y, z], axis=1)
+    return replace(made, mesh=replace(mesh, nodes=nodes))

@@ -41,9 +41,9 @@ class Guess:
             return None
         ends: list[tuple[float, float]] = []
         for axis, (low, high) in enumerate(self._seen.ends):
-            used = np.flatnonzero(self.touching.any(axis=1 - axis))
+            first, last = _used(self.touching, axis)
             size = (high - low) / self.touching.shape[axis]
-            ends.append((low + used[0] * size, low + (used[-1] + 1) * size))
+            ends.append((low + first * size, low + last * size))
         return Window(*ends)
 
     def after(self, earlier: Guess | None) -> Guess:
@@ -64,6 +64,26 @@ class Guess:
             frame.append(tuple(start + (v - low) * by for v in self._seen.ends[axis]))
         return Guess(Window(*window), self.touching, Window(*frame))
 
+    def moved(self) -> Window | None:
+        """The window that fits this contact better, None where its own does or nothing touches."""
+        if self.touching is None:
+            return None
+        ends: list[tuple[float, float]] = []
+        fits = True
+        for axis, (low, high) in enumerate(self.window.ends):
+            count = self.touching.shape[axis]
+            first, last = _used(self.touching, axis)
+            length, size = last - first, (high - low) / count
+            touched = first == 0, last == count
+            fits &= not any(touched) and length >= USED * count
+            if any(touched):  # how far it goes is not known yet, so nothing is taken away
+                start, end = -GROW * count * touched[0], count * (1.0 + GROW * touched[1])
+            else:
+                spare = max(MARGIN * length, CLEAR)
+                start, end = first - spare, last + spare
+            ends.append((low + start * size, low + end * size))
+        return None if fits else Window(*ends)
+
     def start(self, p: Patch) -> Array:
         """Cells (n,) of a patch that are thought to touch: by their places, or those with the least gaps."""
         if self.touching is None:
@@ -74,6 +94,12 @@ class Guess:
     @property
     def _seen(self) -> Window:
         return self.frame or self.window
+
+
+def _used(touching: Array, axis: int) -> tuple[int, int]:
+    """First column or row in which cells touch, and the one after the last."""
+    used = np.flatnonzero(touching.any(axis=1 - axis))
+    return int(used[0]), int(used[-1]) + 1
 
 
 def guessed(p: Patch, force: Array) -> Guess:
@@ -107,26 +133,3 @@ def first_window(met: Meeting, teeth: Teeth, torque: float) -> Window:
     most = 2.0 * float(flank.tip.at(flank.heel) - flank.root.at(flank.heel))
     a, b = (min(1.2 * np.sqrt(2.0 * approach / c), most) for c in (low, high))
     return Window((-a, a), (-min(b, a), min(b, a)))
-
-
-def moved_window(p: Patch, force: Array) -> Window | None:
-    """The window that fits the contact better, None where this one does."""
-    touching = np.zeros(p.on.shape, dtype=bool)
-    touching[p.on] = force[: p.whole] > 0.0
-    if not touching.any():
-        return None
-    ends: list[tuple[float, float]] = []
-    fits = True
-    for axis, (window, count) in enumerate(zip(p.window.ends, p.on.shape, strict=True)):
-        used = np.flatnonzero(touching.any(axis=1 - axis))
-        first, last = int(used[0]), int(used[-1]) + 1
-        length, size = last - first, (window[1] - window[0]) / count
-        touched = first == 0, last == count
-        fits &= not any(touched) and length >= USED * count
-        if any(touched):  # how far it goes is not known yet, so nothing is taken away
-            first, last = (-GROW * count * touched[0], count * (1.0 + GROW * touched[1]))
-        else:
-            spare = max(MARGIN * length, CLEAR)
-            first, last = first - spare, last + spare
-        ends.append((window[0] + first * size, window[0] + last * size))
-    return None if fits else Window(*ends)

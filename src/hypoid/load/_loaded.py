@@ -137,10 +137,11 @@ def solved_positions(
         meetings = [m for m in found if m is not None]
         now: list[PositionContact] = []
         for t, torque in enumerate(torques):
-            contact = position_contact(
-                meetings, teeth, torque, *_expected(torques, t, now, before, earlier)
-            )
-            now.append(contact)
+            if before:
+                known = _onwards(before[t], earlier[t] if earlier else None)
+            else:
+                known = _risen(now[-1], torque / torques[t - 1]) if t else ({}, 0.0)
+            now.append(position_contact(meetings, teeth, torque, *known))
         earlier, before = before, now
         yield [
             _position(unloaded, teeth, at, torque, contact)
@@ -148,25 +149,17 @@ def solved_positions(
         ]
 
 
-def _expected(
-    torques: Sequence[float],
-    t: int,
-    now: Sequence[PositionContact],
-    before: Sequence[PositionContact],
-    earlier: Sequence[PositionContact],
-) -> tuple[dict[int, Guess], float]:
-    """Where pairs are thought to touch, and the rotation (rad): as positions went on, else as torques rise."""
-    if before:
-        ago = earlier[t].guesses if earlier else {}
-        last = before[t]
-        return {n: g.after(ago.get(n)) for n, g in last.guesses.items()}, last.solution.rotation
-    if not t:
-        return {}, 0.0
-    rise = torques[t] / torques[t - 1]
-    grown = min(rise ** (1.0 / 3.0), GROWN)
-    return {n: g.scaled(grown) for n, g in now[-1].guesses.items()}, now[
-        -1
-    ].solution.rotation * rise**EASED
+def _onwards(last: PositionContact, ago: PositionContact | None) -> tuple[dict[int, Guess], float]:
+    """Where pairs are thought to touch at the next position, and the rotation, rad."""
+    before = ago.guesses if ago else {}
+    return {n: g.after(before.get(n)) for n, g in last.guesses.items()}, last.solution.rotation
+
+
+def _risen(lower: PositionContact, by: float) -> tuple[dict[int, Guess], float]:
+    """The same under `by` times the torque at the same position."""
+    grown = min(by ** (1.0 / 3.0), GROWN)
+    scaled = {n: g.scaled(grown) for n, g in lower.guesses.items()}
+    return scaled, lower.solution.rotation * by**EASED
 
 
 def _position(

@@ -11,7 +11,7 @@ import numpy as np
 from ._active_set import ContactSolution, Outcome, solve_contact
 from ._cells import Cells, Teeth, compliance, parts
 from ._dense import on_one_thread
-from ._guess import Guess, first_window, guessed, moved_window, places
+from ._guess import Guess, first_window, guessed, places
 from ._patch import Meeting, Patch, patch
 from ._strips import bearing, deeper, with_strips
 
@@ -26,8 +26,12 @@ class PositionContact:
 
     patches: tuple[Patch, ...]
     solution: ContactSolution
-    outcome: Outcome
     open_window: bool  # a contact still ends at a window's border that is no edge
+
+    @property
+    def outcome(self) -> Outcome:
+        """How the contact of these cells ended."""
+        return self.solution.outcome
 
     @property
     def parts(self) -> tuple[slice, ...]:
@@ -72,10 +76,13 @@ def position_contact(
         for m in ranked
         if m.gap <= ranked[0].gap + max(1e-3, rotation * m.lever) or m.pair in known
     ]
-    first = {m.pair: torque / (len(chosen) if m in chosen else len(ranked)) for m in ranked}
-    fresh = {m.pair: Guess(first_window(m, teeth, first[m.pair])) for m in ranked}
+
+    def fresh(m: Meeting) -> Guess:
+        share = len(chosen) if m in chosen else len(ranked)
+        return Guess(first_window(m, teeth, torque / share))
+
     foretold = set(known)
-    known = fresh | known
+    known = {m.pair: fresh(m) for m in chosen if m.pair not in known} | known
     cells = {m.pair: Cells(patch(m, known[m.pair].window), teeth) for m in chosen}
     blocks: dict[tuple[int, int], Array] = {}
     found: PositionContact | None = None
@@ -85,36 +92,28 @@ def position_contact(
             break
         blocks = {k: v for k, v in blocks.items() if {*k} <= {id(c) for c in used}}
         found = _contact(used, blocks, known, torque)
-        patches, solution = found.patches, found.solution
+        solution = found.solution
         if solution.outcome is not Outcome.OK:
             break
-        known.update(found.guesses)
-        closing = {m.pair: solution.rotation * m.lever for m in ranked}
-        bearing = {
-            p.meeting.pair
-            for p, part in zip(patches, found.parts, strict=True)
-            if solution.force[part].any()
-        }
-        moved = {
-            p.meeting.pair: after
-            for p, part in zip(patches, found.parts, strict=True)
-            if (after := moved_window(p, solution.force[part])) is not None
-        }
+        seen = found.guesses
+        known.update(seen)
+        bearing = {pair for pair, guess in seen.items() if guess.touching is not None}
+        moved = {pair: to for pair, guess in seen.items() if (to := guess.moved()) is not None}
         # late ones, and those whose foretold window may lie beside their contact
         looked = cells.keys() - (foretold - bearing)
-        late = [m for m in ranked if m.pair not in looked and m.gap < closing[m.pair]]
+        late = [m for m in ranked if m.pair not in looked and m.gap < solution.rotation * m.lever]
         if not moved and not late:
             return _at_tips(replace(found, open_window=False), used, torque)
         for m in late:
             foretold.discard(m.pair)
-            known[m.pair] = fresh[m.pair]
+            known[m.pair] = fresh(m)
             cells[m.pair] = Cells(patch(m, known[m.pair].window), teeth)
-        for p in patches:
+        for p in found.patches:
             if (window := moved.get(p.meeting.pair)) is not None:
                 cells[p.meeting.pair] = Cells(patch(p.meeting, window), teeth)
     if found is None:
         nothing = ContactSolution(np.zeros(0), 0.0, np.zeros(0), 0, Outcome.NO_CONTACT)
-        return PositionContact((), nothing, Outcome.NO_CONTACT, False)
+        return PositionContact((), nothing, False)
     return found
 
 
@@ -133,7 +132,7 @@ def _contact(
         torque,
         np.concatenate([known[p.meeting.pair].start(p) for p in patches]),
     )
-    return PositionContact(patches, solution, solution.outcome, True)
+    return PositionContact(patches, solution, True)
 
 
 def _at_tips(found: PositionContact, cells: Sequence[Cells], torque: float) -> PositionContact:
