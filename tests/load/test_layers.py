@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from threading import Event
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from scipy.sparse.linalg import splu
 
 from hypoid.load import STEEL
 from hypoid.load._bricks import stiffness
+from hypoid.load._dense import side_by_side
 from hypoid.load._layers import node_places, through
 from hypoid.pair import GearPair
 from hypoid.solid import hex_mesh
@@ -63,3 +65,18 @@ def test_a_mesh_that_is_no_chain_is_refused() -> None:
     apart = np.arange(40).reshape(2, 20)
     with pytest.raises(ValueError, match="one behind the other"):
         node_places(40, apart)
+
+
+def test_a_job_that_fails_ends_the_one_beside_it() -> None:
+    """As Ctrl-C from a progress does: the other job is told, and nothing waits for its end."""
+    told: list[bool] = []
+
+    def fails(_: Event) -> None:
+        raise KeyboardInterrupt
+
+    def waits(stop: Event) -> None:
+        told.append(stop.wait(timeout=60.0))
+
+    with pytest.raises(KeyboardInterrupt):
+        side_by_side([waits, fails])
+    assert told == [True]

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 from scipy import sparse
+from scipy.spatial.distance import cdist
 
 from hypoid.flank import PitchCone
 
@@ -174,7 +175,7 @@ def _half_space(
 
 def _seen(eye: Array, place: Array, first: Array, second: Array) -> Array:
     """Integral of 1/r (n, n), mm, over parallelograms at `place`, seen from each `eye`."""
-    apart = np.sqrt(np.maximum(((eye[:, None] - place) ** 2).sum(axis=-1), 0.0))
+    apart = cdist(eye, place)
     size = np.maximum(np.linalg.norm(first, axis=1), np.linalg.norm(second, axis=1))
     i, j = np.nonzero(apart < NEAR * size)
     chord = apart[i, j]

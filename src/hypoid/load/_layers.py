@@ -1,22 +1,26 @@
-"""A tooth's stiffness eliminated layer by layer along the face: dense blocks, which BLAS does at full speed.
+"""A tooth's stiffness eliminated section by section along the face: dense blocks, which BLAS does at full speed.
 
-Elements stand in columns along the face, so their nodes in that order make the stiffness block tridiagonal. From both
-ends to a layer in the middle, S0 = A0 and S = A - V' V for each next block, V = L^-1 C' over the nodes that both
-share: the blocks' Cholesky factors L are those of the whole. Loads that no layer so far bears are zero there and left
-out, and a' K^-1 b is the sum of (L^-1 a)' (L^-1 b) over the layers: nothing is carried back.
+Elements stand in columns along the face. Nodes within a column meet but the sections on both its sides, so they go
+first; what is left is a block tridiagonal chain of sections, from both ends to one in the middle: S0 = A0 and
+S = A - V' V for each next block, V = L^-1 C'. The blocks' Cholesky factors L are those of the whole. Loads that nothing
+so far bears are zero there and left out, and a' K^-1 b is the sum of (L^-1 a)' (L^-1 b) over all blocks: nothing is
+carried back.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from concurrent.futures import CancelledError
 from dataclasses import dataclass
+from itertools import count
+from threading import Event
 from typing import Any
 
 import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import breadth_first_order, connected_components
 
-from ._dense import factored, lower_solved
+from ._dense import factored, lower_solved, side_by_side
 
 Array = np.ndarray[Any, Any]
 Progress = Callable[[str, int, int], None]
@@ -59,24 +63,30 @@ class Columns:
 
     matrix: Any  # (n, r) csr
     order: Array  # (r,) which column each was
-    begun: Array  # (layers,) how many have begun up to each layer
+    begun: Array  # (steps,) how many have begun up to each step
 
     @classmethod
-    def of(cls, matrix: Any, layers: list[Array]) -> Columns:
-        """Columns of `matrix` in the order in which the layers, unknowns each, bear them."""
-        number = np.full(matrix.shape[0], len(layers))
-        for k, unknowns in enumerate(layers):
+    def of(cls, matrix: Any, steps: list[Array]) -> Columns:
+        """Columns of `matrix` in the order in which the steps, unknowns each, bear them."""
+        number = np.full(matrix.shape[0], len(steps))
+        for k, unknowns in enumerate(steps):
             number[unknowns] = k
         entries = matrix.tocoo()
-        first = np.full(matrix.shape[1], len(layers))
+        first = np.full(matrix.shape[1], len(steps))
         np.minimum.at(first, entries.coords[1], number[entries.coords[0]])
         order = np.argsort(first, kind="stable")
-        begun = np.searchsorted(first[order], np.arange(len(layers)), side="right")
+        begun = np.searchsorted(first[order], np.arange(len(steps)), side="right")
         return cls(matrix.tocsc()[:, order].tocsr(), order, begun)
 
     def on(self, unknowns: Array, k: int) -> Array:
-        """What the columns begun up to layer k put on its unknowns."""
-        return self.matrix[unknowns][:, : self.begun[k]].toarray()
+        """What the columns begun up to step k put on its unknowns."""
+        return self.matrix[unknowns][:, : self.begun[k]].toarray(order="F")
+
+    def some(self, unknowns: Array) -> tuple[Array, Array]:
+        """The columns that put anything on these unknowns, and what they put."""
+        rows = self.matrix[unknowns]
+        which = np.unique(rows.indices)
+        return which, rows[:, which].toarray()
 
 
 def through(
@@ -87,67 +97,104 @@ def through(
     `place` (n,) tells where each unknown stands, see `node_places`; `load` (n, r) and `sight` (n, s) are sparse.
     """
     matrix, load, sight = matrix.tocsr(), load.tocsr(), sight.tocsr()
-    r, s = load.shape[1], sight.shape[1]
     last = int(place.max()) // 2
-    middle = last // 2
-    column, between = np.divmod(place, 2)
-    core = np.flatnonzero(np.abs(place - (2 * middle - 1)) <= 1)  # a section and its neighbours
-    rising = [np.flatnonzero(column == k) for k in range(middle - 1)]
-    falling = [np.flatnonzero(column + between == k) for k in range(last, middle, -1)]
-    whole = np.zeros((r + s, r))
-    own = matrix[core][:, core].toarray()
-    right = np.hstack([load[core].toarray(), sight[core].toarray()])
-    done = 0
+    inner = [np.flatnonzero(place == 2 * c) for c in range(last + 1)]
+    sections = [np.flatnonzero(place == 2 * c + 1) for c in range(last)]
+    sections = sections or [np.zeros(0, dtype=int)]  # one column has none
+    middle = len(sections) // 2
+    passed = count(1)
 
     def step() -> None:
-        nonlocal done
-        done += 1
-        progress("compliance", done, last + 1)
+        progress("compliance", next(passed), last + 1)
 
-    for layers in (rising, falling):
-        if layers:
-            columns = Columns.of(load, [*layers, core]), Columns.of(sight, [*layers, core])
-            product, off_own, off_right = _eliminated(matrix, [*layers, core], *columns, step)
-            order = np.concatenate([columns[0].order, r + columns[1].order])
-            whole[np.ix_(order, columns[0].order)] += product
-            own -= off_own
-            right[:, order] -= off_right
-    answer = lower_solved(factored(own), right)
-    step()
-    whole += answer.T @ answer[:, :r]
-    return whole[:r], whole[r:]
+    def towards(columns: list[Array], chain: list[Array]) -> Callable[[Event], _Eliminated]:
+        return lambda stop: _eliminated(matrix, columns, chain, (load, sight), step, stop)
+
+    ways = [towards(inner[: middle + 1], sections[: middle + 1])]
+    if last:
+        ways.append(towards(inner[:middle:-1], sections[: middle - 1 if middle else None : -1]))
+    core = sections[middle]
+    own = matrix[core][:, core].toarray()
+    right = [v[core].toarray(order="F") for v in (load, sight)]
+    found = [np.zeros((v.shape[1], load.shape[1])) for v in (load, sight)]
+    for end in side_by_side(ways):
+        own -= end.off_own
+        for k in (0, 1):
+            right[k][:, end.order[k]] -= end.off_right[k]
+            found[k][np.ix_(end.order[k], end.order[0])] += end.product[k]
+    factor = factored(own)
+    loads, sights = (lower_solved(factor, v) for v in right)
+    return found[0] + loads.T @ loads, found[1] + sights.T @ loads
+
+
+@dataclass(frozen=True, eq=False)
+class _Eliminated:
+    """A chain up to its last section: products of what is eliminated, and what that takes off the section.
+
+    Pairs are of loads and of sights.
+    """
+
+    order: tuple[Array, Array]  # (r,), (s,): which load and which sight each was
+    product: tuple[Array, Array]  # (r, r), (s, r)
+    off_own: Array  # (n, n)
+    off_right: tuple[Array, Array]  # (n, r), (n, s)
 
 
 def _eliminated(
-    matrix: Any, layers: list[Array], load: Columns, sight: Columns, step: Callable[[], None]
-) -> tuple[Array, Array, Array]:
-    """Products over all layers but the last, (r + s, r), and what these take off the last one's own and loads."""
-    r, s = len(load.order), len(sight.order)
-    product = np.zeros((r + s, r))
-    off_own, off_right, had = np.zeros(()), np.zeros((0, 0)), (0, 0)
-    unknowns = layers[0]
-    for k in range(len(layers) - 1):
-        meets = np.diff(matrix[unknowns][:, layers[k + 1]].indptr) > 0
-        turn = np.concatenate([np.flatnonzero(~meets), np.flatnonzero(meets)])
-        front = int(meets.sum())
-        a, b = load.begun[k], sight.begun[k]
-        right = np.hstack([load.on(unknowns, k), sight.on(unknowns, k)])
+    matrix: Any,
+    inner: list[Array],
+    chain: list[Array],
+    sides: tuple[Any, Any],
+    step: Callable[[], None],
+    stop: Event,
+) -> _Eliminated:
+    """Elimination of a chain up to its last section; of `inner` unknowns each is before the section of its number."""
+    steps = [np.concatenate(v) for v in zip(inner, [inner[0][:0], *chain[:-1]], strict=True)]
+    kinds = [Columns.of(side, steps) for side in sides]
+    r = sides[0].shape[1]
+    product = [np.zeros((len(kind.order), r)) for kind in kinds]
+    off_own = np.zeros((0, 0))
+    off_right = [np.zeros((0, 0))] * 2
+    for k, (column, here) in enumerate(zip(inner, chain, strict=True)):
+        if stop.is_set():
+            raise CancelledError
+        rows = matrix[column]
+        factor = factored(rows[:, column].toarray())
+        ahead = lower_solved(factor, rows[:, here].toarray())
+        which, some = zip(*(kind.some(column) for kind in kinds), strict=True)
+        borne = [lower_solved(factor, v) for v in some]
+        for i in (0, 1):
+            product[i][np.ix_(which[i], which[0])] += borne[i].T @ borne[0]
+        next_own = ahead.T @ ahead
+        next_right = [np.zeros((kind.begun[k], len(here))).T for kind in kinds]
         if k:
-            right[:, : had[0]] -= off_right[:, : had[0]]
-            right[:, a : a + had[1]] -= off_right[:, had[0] :]
-        own = matrix[unknowns][:, unknowns].toarray() - off_own
-        factor = factored(own[np.ix_(turn, turn)])
-        answer = lower_solved(factor, right[turn])
-        link = lower_solved(
-            factor[-front:, -front:], matrix[unknowns[meets]][:, layers[k + 1]].toarray()
-        )
-        off_own, off_right, had = link.T @ link, link.T @ answer[-front:], (a, b)
-        part = answer.T @ answer[:, :a]
-        product[:a, :a] += part[:a]
-        product[r : r + b, :a] += part[a:]
-        unknowns = layers[k + 1]
+            before = chain[k - 1]
+            behind = lower_solved(factor, rows[:, before].toarray())
+            rows = matrix[before]
+            own = rows[:, before].toarray() - off_own - behind.T @ behind
+            factor = factored(own)
+            link = lower_solved(factor, rows[:, here].toarray() - behind.T @ ahead)
+            answer: list[Array] = []
+            for i, kind in enumerate(kinds):
+                right = kind.on(before, k)
+                right[:, : off_right[i].shape[1]] -= off_right[i]
+                right[:, which[i]] -= behind.T @ borne[i]
+                answer.append(lower_solved(factor, right, overwrite=True))
+            a, b = (kind.begun[k] for kind in kinds)
+            product[0][:a, :a] += answer[0].T @ answer[0]
+            product[1][:b, :a] += answer[1].T @ answer[0]
+            next_own += link.T @ link
+            next_right = [(v.T @ link).T for v in answer]
+        for i in (0, 1):
+            next_right[i][:, which[i]] += ahead.T @ borne[i]
+        off_own, off_right = next_own, next_right
         step()
-    all_right = np.zeros((len(unknowns), r + s))
-    all_right[:, : had[0]] = off_right[:, : had[0]]
-    all_right[:, r : r + had[1]] = off_right[:, had[0] :]
-    return product, off_own, all_right
+    padded = [np.zeros((len(kind.order), len(chain[-1]))).T for kind in kinds]
+    for whole, part in zip(padded, off_right, strict=True):
+        whole[:, : part.shape[1]] = part
+    return _Eliminated(
+        (kinds[0].order, kinds[1].order),
+        (product[0], product[1]),
+        off_own,
+        (padded[0], padded[1]),
+    )
