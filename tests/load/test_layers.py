@@ -78,5 +78,5 @@ def test_a_job_that_fails_ends_the_one_beside_it() -> None:
         told.append(stop.wait(timeout=60.0))
 
     with pytest.raises(KeyboardInterrupt):
-        side_by_side([waits, fails])
+        side_by_side([fails, waits])
     assert told == [True]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -74,8 +75,11 @@ class ToothCompliance:
 
     def difference(self, away: int) -> Array:
         """K_FE - K_HS (h, h), mm/N: what the cells' own half-space leaves out; K_FE on another tooth."""
-        elastic = self.elastic[away % self.teeth]
-        return elastic - self.half_space if away == 0 else elastic
+        return self._own if away == 0 else self.elastic[away % self.teeth]
+
+    @cached_property
+    def _own(self) -> Array:
+        return self.elastic[0] - self.half_space
 
 
 def tooth_compliance(

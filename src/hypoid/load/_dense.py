@@ -31,14 +31,17 @@ def on_one_thread(function: Callable[P, R]) -> Callable[P, R]:
 
 
 def side_by_side(jobs: Sequence[Callable[[Event], R]]) -> list[R]:
-    """What jobs make that are BLAS's for the most part: each in a thread of its own, on its share of BLAS's threads.
+    """What jobs make that are BLAS's for the most part: as many at once as BLAS has threads, which they share.
 
     The event is set where one has failed or the user interrupts: the others are then to end.
     """
     stop = Event()
     most = max((library["num_threads"] for library in LIBRARIES.info()), default=1)
-    share = max(1, most // max(1, len(jobs)))
-    with LIBRARIES.limit(limits=share, user_api="blas"), ThreadPoolExecutor(2) as pool:
+    at_once = max(1, min(most, len(jobs)))
+    with (
+        LIBRARIES.limit(limits=max(1, most // at_once), user_api="blas"),
+        ThreadPoolExecutor(at_once) as pool,
+    ):
         made = [pool.submit(job, stop) for job in jobs]
         try:
             for one in as_completed(made):
