@@ -131,10 +131,10 @@ def through(
 class _Eliminated:
     """A chain up to its last section: products of what is eliminated, and what that takes off the section.
 
-    Pairs are of loads and of sights.
+    Pairs are of loads and of sights, those alone that bear on the chain before that section.
     """
 
-    order: tuple[Array, Array]  # (r,), (s,): which load and which sight each was
+    order: tuple[Array, Array]  # (r,), (s,): which load and which sight each is
     product: tuple[Array, Array]  # (r, r), (s, r)
     off_own: Array  # (n, n)
     off_right: tuple[Array, Array]  # (n, r), (n, s)
@@ -151,8 +151,7 @@ def _eliminated(
     """Elimination of a chain up to its last section; of `inner` unknowns each is before the section of its number."""
     steps = [np.concatenate(v) for v in zip(inner, [inner[0][:0], *chain[:-1]], strict=True)]
     kinds = [Columns.of(side, steps) for side in sides]
-    r = sides[0].shape[1]
-    product = [np.zeros((len(kind.order), r)) for kind in kinds]
+    product = [np.zeros((kind.begun[-1], kinds[0].begun[-1])) for kind in kinds]
     off_own = np.zeros((0, 0))
     off_right = [np.zeros((0, 0))] * 2
     for k, (column, here) in enumerate(zip(inner, chain, strict=True)):
@@ -166,8 +165,9 @@ def _eliminated(
         for i in (0, 1):
             product[i][np.ix_(which[i], which[0])] += borne[i].T @ borne[0]
         next_own = ahead.T @ ahead
-        next_right = [np.zeros((kind.begun[k], len(here))).T for kind in kinds]
-        if k:
+        if k == 0:
+            next_right = [np.zeros((len(here), kind.begun[0])) for kind in kinds]
+        else:
             before = chain[k - 1]
             behind = lower_solved(factor, rows[:, before].toarray())
             rows = matrix[before]
@@ -189,12 +189,7 @@ def _eliminated(
             next_right[i][:, which[i]] += ahead.T @ borne[i]
         off_own, off_right = next_own, next_right
         step()
-    padded = [np.zeros((len(kind.order), len(chain[-1]))).T for kind in kinds]
-    for whole, part in zip(padded, off_right, strict=True):
-        whole[:, : part.shape[1]] = part
+    first, second = (kind.order[: kind.begun[-1]] for kind in kinds)
     return _Eliminated(
-        (kinds[0].order, kinds[1].order),
-        (product[0], product[1]),
-        off_own,
-        (padded[0], padded[1]),
+        (first, second), (product[0], product[1]), off_own, (off_right[0], off_right[1])
     )
