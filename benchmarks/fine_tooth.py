@@ -22,7 +22,7 @@ import hypoid
 from hypoid.load import MESHES, Elements
 from hypoid.load import _patch as patches
 from hypoid.load import _position as positions
-from hypoid.load._patch import Meeting
+from hypoid.load._meeting import Meeting
 from hypoid.load._setup import elements_of
 from hypoid.pair import GearPair
 

@@ -25,7 +25,7 @@ from hypoid.load._dense import factored, lower_solved
 from hypoid.load._hats import _loads as pressed
 from hypoid.load._hats import bilinear, hat_loads, shapes
 from hypoid.load._layers import node_places, through
-from hypoid.load._patch import Meeting
+from hypoid.load._meeting import Meeting
 from hypoid.pair import Member
 from hypoid.solid import body, shape_gradients
 from hypoid.solid._hex_cell import face_nodes
@@ -146,7 +146,7 @@ class Block:
 
     def holds(self, met: Meeting, points: Array) -> Array:
         """Whether points (n, 3) of the pinion's frame are within it."""
-        zero, axes = _frame(met)
+        zero, axes = met.frame
         a, b, height = ((points - zero) @ axes.T).T
         top = RegularGridInterpolator(self.ends[:2], self.height, bounds_error=False)
         return height > top((a, b)) - self.ends[2]  # never where outside, NaN
@@ -164,7 +164,7 @@ def block(met: Meeting, along: Array, across: Array, deep: Array) -> Block:
     top = met.surface(flat_a, flat_b).point.reshape(len(a), len(b), 3)
     place = top[:, :, None] - t[:, None] * met.axes[2]
     nodes = to_pinion(met.contact.mount, np.full(keep.sum(), met.phi), place[keep])
-    turn = np.array([1.0, np.sign(np.linalg.det(_frame(met)[1])), 1.0])
+    turn = np.array([1.0, np.sign(np.linalg.det(met.frame[1])), 1.0])
     cells = list(product(*(range(len(v) - 1) for v in (along, across, deep))))
     at = 2 * np.array(cells)[:, None] + 1 + (PLACES * turn * [1, 1, -1]).astype(int)
     elements = index[at[..., 0], at[..., 1], at[..., 2]]
@@ -190,13 +190,6 @@ def block(met: Meeting, along: Array, across: Array, deep: Array) -> Block:
         (along, across, float(deep[-1])),
         height,
     )
-
-
-def _frame(met: Meeting) -> tuple[Array, Array]:
-    """Contact point and axes (3, 3) of the tangent plane in the pinion's frame."""
-    points = np.vstack([met.origin, met.origin + met.axes])
-    zero, *ends = to_pinion(met.contact.mount, np.full(4, met.phi), points)
-    return zero, np.array(ends) - zero
 
 
 @dataclass(frozen=True, eq=False)
@@ -284,7 +277,7 @@ class _Top:
             np.einsum("fc,qc->fq", v[self.number], self.share).ravel() for v in (made.a, made.b)
         )
         surface = met.surface(*plane)
-        gap = surface.gaps()
+        gap = surface.gap
         size = np.linalg.norm(self.normal, axis=-1)
         found = []
         for values in (np.where(np.isfinite(gap), gap, 1.0), surface.levers[0]):

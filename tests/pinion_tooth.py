@@ -15,7 +15,8 @@ from overlaid import Block, Overlaid, Tooth, block, tooth
 from hypoid.contact import Sampling, unloaded_contact
 from hypoid.load import STEEL, Elements, Material, ToothCompliance, solve_contact
 from hypoid.load._hats import Hats
-from hypoid.load._patch import Meeting, greatest, meeting
+from hypoid.load._meeting import Meeting, meeting
+from hypoid.load._patch import greatest
 from hypoid.load._position import Teeth, position_contact
 from hypoid.pair import GearPair
 

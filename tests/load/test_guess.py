@@ -1,6 +1,8 @@
-"""Windows that are foretold: from two positions' contacts to the next one's."""
+"""Windows that are foretold: from contacts of other torques and positions."""
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -24,10 +26,11 @@ def seen(window: Window, contact: Window) -> Guess:
 
 
 def test_a_contact_that_goes_on_evenly_is_where_it_is_foretold() -> None:
-    """The rectangle moves and grows by what it did before, the window about it leaves the same room all round."""
+    """The rectangle moves and grows by what another did, the window about it leaves the same room all round."""
     earlier = seen(Window((-5.0, 7.5), (-1.2, 1.0)), Window((-4.0, 5.0), (-0.8, 0.6)))
     now = seen(Window((-5.0, 7.5), (-1.2, 1.0)), Window((-3.5, 6.5), (-0.6, 1.0)))
-    found = now.after(earlier)
+    found = now.changed(earlier, now)
+    assert found is not None
     assert found.contact is not None
     np.testing.assert_allclose(found.contact.ends, ((-3.0, 8.0), (-0.4, 1.4)), atol=1e-12)
     for (low, high), (start, end), room in zip(
@@ -44,19 +47,35 @@ def test_a_contact_that_goes_on_evenly_is_where_it_is_foretold() -> None:
 
 
 def test_a_contact_that_leaps_is_followed_with_care() -> None:
-    """No end moves by more than 0.3 of the length: the next position may bring it back."""
+    """No end moves by more than 0.3 of the length: the next try may bring it back."""
     wide = Window((-10.0, 15.0), (-1.2, 1.0))
     earlier = seen(wide, Window((-10.0, -6.0), (-0.8, 0.8)))
     now = seen(wide, Window((2.0, 6.0), (-0.8, 0.8)))
-    found = now.after(earlier).contact
+    guess = now.changed(earlier, now)
+    found = guess and guess.contact
     assert found is not None
     np.testing.assert_allclose(found.along, (3.2, 7.2), atol=1e-12)
 
 
-def test_without_an_earlier_contact_a_window_stays() -> None:
+def test_without_the_other_contacts_nothing_is_foretold() -> None:
     now = seen(Window((-5.0, 7.5), (-1.2, 1.0)), Window((-3.5, 6.5), (-0.6, 1.0)))
-    assert now.after(None) is now
-    assert now.after(Guess(now.window)) is now
+    nothing = Guess(now.window)
+    for first, then in ((None, now), (now, None), (nothing, now), (now, nothing)):
+        assert now.changed(first, then) is None
+    assert nothing.changed(now, now) is None
+    assert nothing.grown(1.0) is None
+    assert now.grown(1.0) is None  # its own approach is not known
+
+
+@pytest.mark.parametrize(("times", "length"), [(4.0, 2.0), (0.25, 0.5), (1e4, 4.0)])
+def test_a_contact_grows_with_the_root_of_its_approach(times: float, length: float) -> None:
+    """As an ellipse does; about the place where the pair touches first, and by four at the most."""
+    window, contact = Window((-5.0, 7.5), (-1.2, 1.0)), Window((-3.5, 6.5), (-0.6, 1.0))
+    now = replace(seen(window, contact), approach=2e-3)
+    found = now.grown(2e-3 * times)
+    assert found is not None
+    assert found.contact is not None
+    np.testing.assert_allclose(found.contact.ends, length * np.array(contact.ends), atol=1e-12)
 
 
 def test_blas_keeps_to_one_thread_for_a_while() -> None:

@@ -27,7 +27,8 @@ from hypoid.load import (
 from hypoid.load._cells import Cells, compliance
 from hypoid.load._guess import Guess
 from hypoid.load._load_case import _spline_range
-from hypoid.load._patch import EDGES, Window, meeting, patch
+from hypoid.load._meeting import meeting
+from hypoid.load._patch import EDGES, Window, patch
 from hypoid.load._position import position_contact
 from hypoid.pair import GearPair
 

@@ -11,7 +11,8 @@ import pytest
 from hypoid.contact import angle_field
 from hypoid.load import LoadedContact, Outcome, ToothCompliance, loaded_contact
 from hypoid.load._cells import Cells, compliance
-from hypoid.load._patch import Meeting, Patch, Window, greatest, meeting, patch
+from hypoid.load._meeting import Meeting, meeting
+from hypoid.load._patch import Patch, Window, greatest, patch
 from hypoid.load._position import position_contact
 from hypoid.load._tips import active_field, falls_away, land_angle
 from hypoid.pair import GearPair

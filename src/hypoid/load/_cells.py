@@ -56,27 +56,20 @@ class Cells:
     @cached_property
     def half_space(self) -> Array:
         """Displacement (n, n), mm/N, of half-spaces with each cell's images beyond tips and ends."""
-        p = self.patch
-        whole, on, (columns, rows) = p.whole, p.on.ravel(), p.on.shape
-        x, y = p.plane[:whole].T
-        cells = np.zeros((p.count, p.count))
-        grid = regular_grid(columns, rows, *p.size)[np.ix_(on, on)] / self.teeth.plane_modulus
-        square = (x[:, None] - x) ** 2 + (y[:, None] - y) ** 2
-        rest = np.zeros((p.count, len(p.cut)))
-        if len(p.cut):
-            rest = unlike(p.plane, p.plane, p.corners, p.flat, whole) / self.teeth.plane_modulus
-        for member, lines in zip((self.teeth.pinion, self.teeth.wheel), p.lines, strict=True):
-            weight = IMAGE / member.made_of.plane_modulus
-            for line in lines:
-                grid += weight * mirrored_grid(x, y, line, *p.size, square)
-                if len(p.cut):
-                    eye = mirrored(p.plane, line)
-                    rest += weight * unlike(eye, p.plane, p.corners, p.flat, whole)
-        cells[:whole, :whole] = grid / (p.size[0] * p.size[1])
-        cells[:, whole:] = rest
-        cells[whole:, :whole] = rest[:whole].T
-        cells *= 1.0 / np.pi
-        return cells
+        p, whole = self.patch, self.patch.whole
+        moduli = [m.made_of.plane_modulus for m in (self.teeth.pinion, self.teeth.wheel)]
+        lines, weights = np.concatenate(p.lines), np.repeat(IMAGE / np.array(moduli), 3)
+        on, x, y = p.on.ravel(), *p.plane[:whole].T
+        grid = mirrored_grid(x, y, lines, weights, *p.size)
+        grid += regular_grid(*p.on.shape, *p.size)[np.ix_(on, on)] / self.teeth.plane_modulus
+        grid *= 1.0 / (np.pi * p.size[0] * p.size[1])
+        if not len(p.cut):
+            return grid
+        rest = unlike(p.plane, p.plane, p.corners, p.flat, whole) / self.teeth.plane_modulus
+        for line, weight in zip(lines, weights, strict=True):
+            rest += weight * unlike(mirrored(p.plane, line), p.plane, p.corners, p.flat, whole)
+        rest *= 1.0 / np.pi
+        return np.block([[grid, rest[:whole]], [rest[:whole].T, rest[whole:]]])
 
     @cached_property
     def wrenches(self) -> tuple[Array, Array]:

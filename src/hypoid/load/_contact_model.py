@@ -23,7 +23,8 @@ from ._compliance import Elements, Support, ToothCompliance
 from ._contact_finer import finer_under
 from ._hats import Hats, _knots, shapes
 from ._material import STEEL, Material
-from ._patch import Patch, meeting
+from ._meeting import meeting
+from ._patch import Patch
 from ._position import Teeth, position_contact
 from ._setup import MESHES, pair_compliance
 from ._superelement import Progress

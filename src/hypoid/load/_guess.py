@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from scipy.optimize import brentq
 
 from ._cells import Teeth
-from ._patch import Meeting, Patch, Window
+from ._meeting import Meeting
+from ._patch import COLUMNS, ROWS, Patch, Window
 
 Array = np.ndarray[Any, Any]
 GROW = 0.3  # of a window's length by which a border moves out that the contact touches
@@ -18,7 +21,10 @@ MARGIN, CLEAR = (
 )  # of a contact's length, and cells, at least: what it stands off the borders
 USED = 0.55  # of a window's length that the contact fills, at least
 SPARE = (2.5, 1.6)  # cells, along and across, that a contact foretold stands off every border
-MOST = 0.3  # of a contact's length by which its ends are thought to move from position to position
+MOST = 0.3  # of a contact's length by which one of its ends is thought to move
+GROWN = 4.0  # times: the most that a contact is thought to grow
+OWN = 0.5  # of a pair's approach that its surfaces take: the rest bends teeth
+SMALLEST = 1e-4  # mm: an approach that a first window is made for, at least
 FILLED = 0.45  # share of a patch, nearest first, that is thought to touch
 
 
@@ -29,10 +35,9 @@ class Guess:
     window: Window
     touching: Array | None = None  # (columns, rows) bool, of `frame`
     frame: Window | None = None  # the window itself where None
-
-    def scaled(self, by: float) -> Guess:
-        """The same about each window's middle, `by` times as long and wide."""
-        return Guess(self.window.scaled(by), self.touching, self.frame and self.frame.scaled(by))
+    approach: float = (
+        0.0  # mm by which the pair's surfaces would then be in each other, were nothing to give
+    )
 
     @property
     def contact(self) -> Window | None:
@@ -46,21 +51,33 @@ class Guess:
             ends.append((low + first * size, low + last * size))
         return Window(*ends)
 
-    def after(self, earlier: Guess | None) -> Guess:
-        """What is to be expected at the next position, from this one's contact and the `earlier` one's."""
-        now, before = self.contact, earlier and earlier.contact
-        if self.touching is None or now is None or before is None:
-            return self
+    def changed(self, first: Guess | None, then: Guess | None) -> Guess | None:
+        """What becomes of this contact if its ends move as from `first` to `then`, None where one is not known."""
+        now, before, after = self.contact, first and first.contact, then and then.contact
+        if now is None or before is None or after is None:
+            return None
+        ends: list[tuple[float, float]] = []
+        for (low, high), was, (start, end) in zip(now.ends, before.ends, after.ends, strict=True):
+            most = MOST * max(high - low, end - start)
+            steps = np.clip(np.subtract((start, end), was), -most, most)
+            ends.append((low + steps[0], high + steps[1]))
+        return self._stretched(now, Window(*ends))
+
+    def grown(self, approach: float) -> Guess | None:
+        """What becomes of this contact under another approach, mm, None where that is not known."""
+        now = self.contact
+        if now is None or not min(approach, self.approach) > 0.0:
+            return None
+        by = float(np.clip(np.sqrt(approach / self.approach), 1.0 / GROWN, GROWN))
+        return self._stretched(now, now.scaled(by))
+
+    def _stretched(self, now: Window, then: Window) -> Guess:
+        """The same with its contact, which fills the window `now`, stretched to fill another."""
         window, frame = [], []
-        for axis, (low, high) in enumerate(now.ends):
-            length = high - low
-            steps = np.clip(
-                np.subtract((low, high), before.ends[axis]), -MOST * length, MOST * length
-            )
-            start, end = low + steps[0], high + steps[1]
-            spare = SPARE[axis] / (self.touching.shape[axis] - 2.0 * SPARE[axis]) * (end - start)
+        for axis, ((low, high), (start, end)) in enumerate(zip(now.ends, then.ends, strict=True)):
+            spare = SPARE[axis] / ((COLUMNS, ROWS)[axis] - 2.0 * SPARE[axis]) * (end - start)
             window.append((start - spare, end + spare))
-            by = (end - start) / length
+            by = (end - start) / (high - low)
             frame.append(tuple(start + (v - low) * by for v in self._seen.ends[axis]))
         return Guess(Window(*window), self.touching, Window(*frame))
 
@@ -96,19 +113,23 @@ class Guess:
         return self.frame or self.window
 
 
+UNKNOWN = Guess(Window((0.0, 0.0), (0.0, 0.0)))
+
+
 def _used(touching: Array, axis: int) -> tuple[int, int]:
     """First column or row in which cells touch, and the one after the last."""
     used = np.flatnonzero(touching.any(axis=1 - axis))
     return int(used[0]), int(used[-1]) + 1
 
 
-def guessed(p: Patch, force: Array) -> Guess:
-    """Where a contact is that was found with forces (n,)."""
+def guessed(p: Patch, force: Array, rotation: float) -> Guess:
+    """Where a contact is that was found with forces (n,) at a rotation, rad."""
     touching = np.zeros(p.on.shape, dtype=bool)
     there, (column, row) = places(p.window, p.plane, p.on.shape)
     loaded = there & (force > 0.0)
     touching[column[loaded], row[loaded]] = True
-    return Guess(p.window, touching if touching.any() else None)
+    approach = rotation * p.meeting.lever - p.meeting.gap
+    return Guess(p.window, touching if touching.any() else None, None, approach)
 
 
 def places(
@@ -124,12 +145,42 @@ def places(
     return there, (index[0], index[1])
 
 
-def first_window(met: Meeting, teeth: Teeth, torque: float) -> Window:
-    """Where a line contact of this force would be: half lengths by the approach it needs."""
-    force = max(torque, 1.0) / max(met.lever, 1e-3)
+def first_rotation(meetings: Sequence[Meeting], teeth: Teeth, torque: float) -> float:
+    """Rotation, rad, at which contacts that nobody has seen yet would bear a torque, N mm."""
+    met = [m for m in meetings if m.lever > 0.0]
+    least = min((m.gap / m.lever for m in met), default=0.0)
+
+    def missing(beyond: float) -> float:
+        forces = (_line_force(m, teeth, _approach(m, least + beyond)) for m in met)
+        return sum(m.lever * f for m, f in zip(met, forces, strict=True)) - torque
+
+    most = 1e-6
+    while met and missing(most) < 0.0:
+        most *= 4.0
+    return least + (float(brentq(missing, 0.0, most)) if met else 0.0)  # pyright: ignore
+
+
+def first_window(met: Meeting, teeth: Teeth, rotation: float) -> Window:
+    """Where a pair would touch at a rotation, rad: as long as its approach asks for, as wide as a line contact."""
+    approach = max(_approach(met, rotation), SMALLEST)
     low, high = met.curvature
-    approach = (6.0 * force / (np.pi * teeth.plane_modulus * np.sqrt(8.0 / low))) ** (2.0 / 3.0)
     flank = met.contact.pinion_flank
     most = 2.0 * float(flank.tip.at(flank.heel) - flank.root.at(flank.heel))
-    a, b = (min(1.2 * np.sqrt(2.0 * approach / c), most) for c in (low, high))
+    length = np.sqrt(2.0 * approach / low)
+    line_load = 2.0 * _line_force(met, teeth, approach) / (np.pi * length)
+    width = np.sqrt(4.0 * line_load / (np.pi * teeth.plane_modulus * high))
+    a, b = (
+        min(half / (1.0 - 2.0 * spare / count), most)
+        for half, spare, count in zip((length, width), SPARE, (COLUMNS, ROWS), strict=True)
+    )
     return Window((-a, a), (-min(b, a), min(b, a)))
+
+
+def _approach(met: Meeting, rotation: float) -> float:
+    """How far, mm, the surfaces of a pair give way at a rotation, rad."""
+    return OWN * max(rotation * met.lever - met.gap, 0.0)
+
+
+def _line_force(met: Meeting, teeth: Teeth, approach: float) -> float:
+    """Force, N, of a line contact whose surfaces give way by an approach, mm."""
+    return np.pi * teeth.plane_modulus * np.sqrt(8.0 / met.curvature[0]) / 6.0 * approach**1.5

@@ -11,7 +11,7 @@ from hypoid.contact import UnloadedContact
 from ._active_set import Outcome
 from ._cells import Teeth
 from ._load_case import LoadCase
-from ._patch import meeting
+from ._meeting import meeting
 from ._position import PositionContact, position_contact
 
 Progress = Callable[[str, int, int], None]

@@ -20,16 +20,17 @@ from ._active_set import Outcome
 from ._bearings import Bearings, bearings_of, moved_mounting, wrenches
 from ._cells import Teeth
 from ._compliance import ToothCompliance
+from ._guess import UNKNOWN, Guess
 from ._limits import has_left, has_left_at, leaves_at, needs_more, pairs_needed
 from ._load_case import PAIRS, LoadCase, LoadedPosition, PairLoad
-from ._patch import EDGES, Patch, greatest, meeting, nearest_edge, on_arcs
-from ._position import EDGE, Guess, PositionContact, position_contact
+from ._meeting import Meeting, meeting
+from ._patch import EDGES, Patch, greatest, nearest_edge, on_arcs
+from ._position import EDGE, NOWHERE, PositionContact, position_contact
 
 Array = np.ndarray[Any, Any]
 Progress = Callable[[str, int, int], None]
 FINE = 40  # positions a pitch of the unloaded contact, at least
 EASED = 2.0 / 3.0  # power of the torque by which the rotation is thought to rise at least
-GROWN = 2.0  # times: the most that a contact is thought to grow from one torque to the next
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,7 +130,6 @@ def solved_positions(
     step = unloaded.sampling.positions_per_pitch // per_pitch
     half = unloaded.sampling.pairs // 2
     start = len(unloaded.phi) // 2
-    earlier: list[PositionContact] = []  # of the last position but one, and of the last, by torque
     before: list[PositionContact] = []
     for k in range(per_pitch):
         at = start + k * step
@@ -137,29 +137,40 @@ def solved_positions(
         meetings = [m for m in found if m is not None]
         now: list[PositionContact] = []
         for t, torque in enumerate(torques):
-            if before:
-                known = _onwards(before[t], earlier[t] if earlier else None)
-            else:
-                known = _risen(now[-1], torque / torques[t - 1]) if t else ({}, 0.0)
-            now.append(position_contact(meetings, teeth, torque, *known))
-        earlier, before = before, now
+            foretold = _foretold(before, now, torque / torques[max(t - 1, 0)], meetings)
+            now.append(position_contact(meetings, teeth, torque, *foretold))
+        before = now
         yield [
             _position(unloaded, teeth, at, torque, contact)
             for torque, contact in zip(torques, now, strict=True)
         ]
 
 
-def _onwards(last: PositionContact, ago: PositionContact | None) -> tuple[dict[int, Guess], float]:
-    """Where pairs are thought to touch at the next position, and the rotation, rad."""
-    before = ago.guesses if ago else {}
-    return {n: g.after(before.get(n)) for n, g in last.guesses.items()}, last.solution.rotation
+def _foretold(
+    before: Sequence[PositionContact],
+    now: Sequence[PositionContact],
+    by: float,
+    meetings: Sequence[Meeting],
+) -> tuple[dict[int, Guess], float]:
+    """Where pairs are thought to touch under the next torque, `by` times the last, and the rotation, rad.
 
-
-def _risen(lower: PositionContact, by: float) -> tuple[dict[int, Guess], float]:
-    """The same under `by` times the torque at the same position."""
-    grown = min(by ** (1.0 / 3.0), GROWN)
-    scaled = {n: g.scaled(grown) for n, g in lower.guesses.items()}
-    return scaled, lower.solution.rotation * by**EASED
+    From this position's contacts so far and those one position `before`, by torque: a contact changes as that rise of
+    the torque changed it before; else it grows with its approach.
+    """
+    here = now[-1] if now else NOWHERE
+    last = before[len(now)] if before else NOWHERE
+    lower = before[len(now) - 1] if before and now else NOWHERE
+    rotation = here.rotation * by**EASED
+    if before:
+        rotation = last.rotation + here.rotation - lower.rotation
+    known: dict[int, Guess] = {}
+    for m in meetings:
+        less, then, was = (c.guesses.get(m.pair, UNKNOWN) for c in (here, last, lower))
+        approach = rotation * m.lever - m.gap
+        guess = less.changed(was, then) or less.grown(approach) or then.grown(approach)
+        if guess:
+            known[m.pair] = guess
+    return known, rotation
 
 
 def _position(
@@ -168,7 +179,7 @@ def _position(
     n, half = unloaded.sampling.positions_per_pitch, unloaded.sampling.pairs // 2
     rigid = float(unloaded.curve[at - n * np.arange(-half, half + 1)].max())
     error = rigid - unloaded.index_shift
-    mount, rotation = unloaded.mount, found.solution.rotation
+    mount, rotation = unloaded.mount, found.rotation
     mirrored = unloaded.pinion_flank.mirrored
     on_pinion, on_wheel, wheel_torque = np.zeros(6), np.zeros(6), 0.0
     loads: list[PairLoad] = []

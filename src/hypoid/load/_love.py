@@ -9,9 +9,13 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import Any
 
+import jax.numpy as jnp
 import numpy as np
 
+from hypoid.geometry import Batch, compiled_fused
+
 Array = np.ndarray[Any, Any]
+TOGETHER = 275  # cells whose images are computed at once: as many as a patch has
 NEAR = 5.0  # cells this many lengths apart see each other as points, within 0.34 %
 
 
@@ -57,31 +61,46 @@ def mirrored(place: Array, line: Array) -> Array:
 
 
 def mirrored_grid(
-    x: Array, y: Array, line: Array, width: float, height: float, square: Array | None = None
+    x: Array, y: Array, lines: Array, weights: Array, width: float, height: float
 ) -> Array:
-    """Integrals of 1/r (mm) at cells' middles (n,) of all cells' images beyond a straight line, symmetric (n, n).
+    """Weighted integrals of 1/r (mm) at cells' middles (n,) of their images beyond straight lines, symmetric (n, n).
 
-    The line is c0 + c1 x + c2 y = 0, positive on the cells' side; `square` (n, n) are the cells' own distances squared,
-    if they are known.
+    The lines (k, 3) are c0 + c1 x + c2 y = 0, positive on the cells' side, and count with the weights (k,); one
+    without a direction is none.
     """
+    n, size = len(x), np.hypot(lines[:, 1], lines[:, 2])
+    weights = np.where(size > 0.0, weights, 0.0)
+    lines = lines / np.where(size > 0.0, size, 1.0)[:, None]
     place = np.stack([x, y], axis=-1)
-    there_x, there_y = mirrored(place, line).T
-    apart = (line[0] + place @ line[1:]) / np.hypot(*line[1:])
-    own = (x[:, None] - x) ** 2 + (y[:, None] - y) ** 2 if square is None else square
-    # seen from an eye's image the cell itself is what its image is to the eye
-    away = np.multiply.outer(4.0 * apart, apart)
-    away += own
+    apart = lines[:, :1] + lines[:, 1:] @ place.T
     reach = (NEAR * max(width, height)) ** 2
-    near = np.nonzero(away < reach) if 4.0 * (apart * apart).min(initial=reach) < reach else None
-    if near is not None:
-        away[near] = 1.0
-    np.sqrt(away, out=away)
-    np.divide(width * height, away, out=away)
-    if near is not None and len(near[0]):
-        i, j = near
-        way = (there_x[i] - x[j], there_y[i] - y[j]), (there_x[j] - x[i], there_y[j] - y[i])
-        away[near] = 0.5 * sum(rectangle(*d, width, height) for d in way)
-    return away
+    room = -(-n // TOGETHER) * TOGETHER - n
+    whole = (np.pad(v, [(0, 0)] * (v.ndim - 1) + [(0, room)]) for v in (x, y, apart))
+    far = _far_images(*whole, weights * width * height, np.array(reach))
+    found = np.asarray(far)[:n, :n].copy()
+    own = (x[:, None] - x) ** 2 + (y[:, None] - y) ** 2
+    for line, weight, off in zip(lines, weights, apart, strict=True):
+        if weight and 4.0 * off.min(initial=np.inf) ** 2 < reach:
+            i, j = np.nonzero(np.multiply.outer(4.0 * off, off) < reach - own)
+            # seen from an eye's image the cell itself is what its image is to the eye
+            there_x, there_y = mirrored(place, line).T
+            way = (there_x[i] - x[j], there_y[i] - y[j]), (there_x[j] - x[i], there_y[j] - y[i])
+            found[i, j] += 0.5 * weight * sum(rectangle(*d, width, height) for d in way)
+    return found
+
+
+@compiled_fused
+def _far_images(x: Batch, y: Batch, apart: Batch, weights: Batch, reach: Batch) -> Batch:
+    """Sum (n, n) of weights (k,) over the distances of places (n,) from images `apart` (k, n) from lines.
+
+    Without those whose square is less than `reach`.
+    """
+    own = (x[:, None] - x) ** 2 + (y[:, None] - y) ** 2
+    total = jnp.zeros_like(own)
+    for off, weight in zip(apart, weights, strict=True):
+        away = own + 4.0 * off[:, None] * off
+        total = total + jnp.where(away < reach, 0.0, weight / jnp.sqrt(jnp.maximum(away, reach)))
+    return total
 
 
 def polygon(eye: Array, corners: Array) -> Array:

@@ -1,8 +1,7 @@
 """Candidate cells of one tooth pair: a grid in the common tangent plane, and the gap of the exact surfaces there.
 
-All in the contact's frame G (left-hand wheel frame, see `hypoid.contact`), mm. Along every cell's ray, parallel to
-the common normal, the pinion is met by a secant; the gap is the wheel's lag behind its rigid place times its lever,
-as everywhere in the unloaded contact.
+All in the contact's frame G (left-hand wheel frame, see `hypoid.contact`), mm. The gap is the wheel's lag behind its
+rigid place times its lever, as everywhere in the unloaded contact.
 """
 
 from __future__ import annotations
@@ -13,9 +12,11 @@ from typing import Any
 
 import numpy as np
 
-from hypoid.contact import Mounting, UnloadedContact, lead, to_pinion, to_wheel
+from hypoid.flank import Flank
 
-from ._tips import Arc, active_field, land_angle
+from ._meeting import Meeting
+from ._surface import Surface
+from ._tips import Arc, land_angle
 
 Array = np.ndarray[Any, Any]
 ENDS = ("tip", "toe", "heel", "fillet limit")
@@ -26,121 +27,7 @@ LIMITS = (
 )  # by the mate's tip
 COLUMNS, ROWS = 25, 11  # cells along the contact and across
 CORNERS = 8  # of a rectangle that two tips and two ends have cut
-STENCIL, REACH = (
-    9,
-    0.1,
-)  # points each way and whole depths, for the curvature where the pair touches first
-SECANTS, ARRIVED = 8, 1e-13  # most steps, and when they end, rad
-STEP = 1e-3  # mm, of differences
 NEAR = 0.1  # mm: cells so near to a rounded tip count full where its line is fitted
-STRAIGHT = 2e-5  # 1/mm: the least relative curvature that a first patch counts with
-
-
-@dataclass(frozen=True, eq=False)
-class Meeting:
-    """One tooth pair at one position: where it touches first, and how surfaces are read there."""
-
-    contact: UnloadedContact
-    pair: int  # k: this pair stands k pitches behind pair 0
-    phi: float  # pinion angle of this pair's own passage, rad
-    lead: float  # where the wheel stands: its rigid lead, rad
-    origin: Array  # (3,)
-    axes: Array  # (3, 3) rows: along the contact, across, pinion's outward normal
-    curvature: tuple[float, float]  # 1/mm, along and across, of the gap
-    gap: float  # mm, least
-    lever: float  # of the pinion there, mm
-
-    def surface(self, a: Array, b: Array) -> Surface:
-        """The pinion's points on rays at (a, b), mm, of the tangent plane."""
-        mount, phi = self.contact.mount, self.phi
-        pair, flanks = self.contact.pair, (self.contact.pinion_flank, self.contact.wheel_flank)
-        pinion = active_field(flanks[0], pair.pinion.tip_rounding)
-        wheel = active_field(flanks[1], pair.wheel.tip_rounding)
-        foot = self.origin + a[:, None] * self.axes[0] + b[:, None] * self.axes[1]
-
-        def miss(height: Array) -> Array:
-            return _miss(mount, pinion, phi, foot + height[:, None] * self.axes[2])
-
-        height = np.zeros(len(a))
-        last, now = miss(height), miss(height + STEP)
-        before, height = height, height + STEP
-        for _ in range(SECANTS):
-            if not np.abs(now).max(initial=0.0) > ARRIVED:
-                break
-            slope = (now - last) / np.where(height == before, np.inf, height - before)
-            step = np.where(slope == 0.0, 0.0, -now / np.where(slope == 0.0, 1.0, slope))
-            step = np.clip(np.nan_to_num(step), -1.0, 1.0)
-            before, last = height, now
-            height = height + step
-            now = miss(height)
-        point = foot + height[:, None] * self.axes[2]
-        moves = STEP * np.concatenate([self.axes, -self.axes])
-        around = _miss(mount, pinion, phi, (point + moves[:, None]).reshape(-1, 3)).reshape(6, -1)
-        slopes = (around[:3] - around[3:]).T
-        normal = slopes @ self.axes
-        normal *= (np.sign(slopes[:, 2]) / np.linalg.norm(normal, axis=1))[:, None]
-        return Surface(self, point, normal, pinion, wheel)
-
-
-def _miss(mount: Mounting, pinion: Any, phi: float, point: Array) -> Array:
-    """Angle (n,), rad, by which points (n, 3) in G stand beside the pinion's flank."""
-    x, y, z = to_pinion(mount, np.full(len(point), phi), point).T
-    angle = pinion.angle(*pinion.cone.cone_distance_height(z, np.hypot(x, y)))
-    return (np.arctan2(y, x) - np.asarray(angle) + np.pi) % (2.0 * np.pi) - np.pi
-
-
-@dataclass(frozen=True, eq=False)
-class Surface:
-    """Points of the pinion's flank as one pair sees them."""
-
-    meeting: Meeting
-    point: Array  # (n, 3)
-    normal: Array  # (n, 3) out of the pinion's tooth
-    pinion: Any
-    wheel: Any
-
-    def cut(self, on: Array) -> Surface:
-        """Some of the points."""
-        return replace(self, point=self.point[on], normal=self.normal[on])
-
-    @property
-    def pinion_place(self) -> tuple[Array, Array]:
-        """(S, H) on the pinion, mm."""
-        m = self.meeting
-        x, y, z = to_pinion(m.contact.mount, np.full(len(self.point), m.phi), self.point).T
-        return self.pinion.cone.cone_distance_height(z, np.hypot(x, y))
-
-    @property
-    def wheel_place(self) -> tuple[Array, Array]:
-        """(S, H) on the wheel, mm."""
-        x, y, z = self.point.T
-        return self.wheel.cone.cone_distance_height(z, np.hypot(x, y))
-
-    @property
-    def bodily(self) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
-        """Points and outward normals, (n, 3) each, of pinion and wheel in their own left-hand frames."""
-        mount, x, n = self.meeting.contact.mount, self.point, self.normal
-        phi = np.full(len(x), self.meeting.phi)
-        own = to_pinion(mount, phi, x)
-        return (own, to_pinion(mount, phi, x + n) - own), (x, -n)
-
-    @property
-    def levers(self) -> tuple[Array, Array]:
-        """Levers (n,) of pinion and wheel, mm: normal motion of a flank a radian of its travel."""
-        (own, out), (x, n) = self.bodily
-        sense = self.meeting.contact.mount.sense
-        pinion = -sense * (own[:, 0] * out[:, 1] - own[:, 1] * out[:, 0])
-        return pinion, np.abs(x[:, 0] * n[:, 1] - x[:, 1] * n[:, 0])
-
-    def gaps(self) -> Array:
-        """Gap (n,), mm, along the normal with the wheel in its rigid place; infinite off either active flank."""
-        m = self.meeting
-        own = to_pinion(m.contact.mount, np.full(len(self.point), m.phi), self.point)
-        leads = np.asarray(lead(m.contact.mount, self.wheel, m.phi, tuple(own.T)))
-        held = np.asarray(self.pinion.holds(*self.pinion_place)) & np.isfinite(leads)
-        with np.errstate(invalid="ignore"):
-            gap = (m.lead - leads) * self.levers[1]
-        return np.where(held, gap, np.inf)
 
 
 def _edge_lines(surface: Surface, flanks: Any, plane: Array) -> tuple[Array, Array]:
@@ -166,7 +53,7 @@ def _arc(met: Meeting, cells: Surface, plane: Array, member: int) -> Arc | None:
     radius = (pair.pinion, pair.wheel)[member].tip_rounding
     if not (radius > 0.0 and len(plane)):
         return None
-    flank = (met.contact.pinion_flank, met.contact.wheel_flank)[member]
+    flank = met.flanks[member]
     s, h = (cells.pinion_place, cells.wheel_place)[member]
     apart = flank.tip.at(s) - h
     weight = (np.abs(apart) + NEAR) ** -2.0
@@ -174,62 +61,8 @@ def _arc(met: Meeting, cells: Surface, plane: Array, member: int) -> Arc | None:
     line = np.linalg.lstsq(terms, apart * weight, rcond=None)[0]
     line /= np.hypot(*line[1:])
     there = np.array([np.abs(line[0] + plane @ line[1:]).argmin()])
-    point, normal = cells.cut(there).bodily[member]
+    point, normal = met.bodily(cells.cut(there), member)
     return Arc(line, float(land_angle(flank, normal, point)[0]), radius)
-
-
-def meeting(contact: UnloadedContact, position: int, pair: int) -> Meeting | None:
-    """Where pair k touches first at a position (index into `contact.phi`), None where its flanks do not face."""
-    n = contact.sampling.positions_per_pitch
-    own = position - pair * n
-    if not 0 <= own < len(contact.phi) or not np.isfinite(contact.curve[own]):
-        return None
-    phi = float(contact.phi[own])
-    node = int(contact.leads[own].argmax())
-    at, normal = contact.nodes.point[:, node], contact.nodes.normal[:, node]
-    if contact.interior[own]:
-        flank = contact.pinion_flank
-        found = flank.at_cutter(contact.points.s1[[own]], contact.points.theta1[[own]])
-        at, normal = (v[0] * flank.hand for v in found)
-    origin = np.array(to_wheel(contact.mount, phi, tuple(at)), dtype=float)
-    out = np.array(to_wheel(contact.mount, phi, tuple(normal), free=True), dtype=float)
-    rigid = contact.curve[position - n * np.arange(-_half(contact), _half(contact) + 1)].max()
-    first = np.cross(out, (0.0, 0.0, 1.0))
-    first /= np.linalg.norm(first)
-    axes = np.array([first, np.cross(out, first), out])
-    rough = Meeting(contact, pair, phi, float(rigid), origin, axes, (STRAIGHT, STRAIGHT), 0.0, 0.0)
-    levers = rough.surface(np.zeros(1), np.zeros(1)).levers
-    gap = (float(rigid) - float(contact.curve[own])) * float(levers[1][0])
-    turn, curvature = _curvature(rough, contact.pinion_flank)
-    c, s = np.cos(turn), np.sin(turn)
-    if c * axes[0, 2] + s * axes[1, 2] < 0.0:  # always the same way, as the positions go on
-        c, s = -c, -s
-    axes = np.array([c * axes[0] + s * axes[1], c * axes[1] - s * axes[0], out])
-    return Meeting(
-        contact, pair, phi, float(rigid), origin, axes, curvature, gap, float(levers[0][0])
-    )
-
-
-def _half(contact: UnloadedContact) -> int:
-    return contact.sampling.pairs // 2
-
-
-def _curvature(rough: Meeting, flank: Any) -> tuple[float, tuple[float, float]]:
-    """Direction of least curvature of the gap in the tangent plane, rad, and both curvatures, 1/mm."""
-    depth = float(flank.tip.at(flank.heel) - flank.root.at(flank.heel))
-    spread = np.linspace(-REACH * depth, REACH * depth, STENCIL)
-    a, b = (v.ravel() for v in np.meshgrid(spread, spread))
-    for wider in (1.0, 3.0):
-        x, y = wider * a, wider * b
-        gap = rough.surface(x, y).gaps()
-        there = np.isfinite(gap)
-        if there.sum() >= 2 * STENCIL:
-            terms = np.stack([np.ones_like(x), x, y, 0.5 * x * x, x * y, 0.5 * y * y], axis=1)
-            fit, *_ = np.linalg.lstsq(terms[there], gap[there], rcond=None)
-            values, vectors = np.linalg.eigh([[fit[3], fit[4]], [fit[4], fit[5]]])
-            low, high = (max(float(v), STRAIGHT) for v in values)
-            return float(np.arctan2(vectors[1, 0], vectors[0, 0])), (low, max(high, low))
-    return 0.0, (STRAIGHT, 1e-2)
 
 
 @dataclass(frozen=True)
@@ -245,13 +78,8 @@ class Window:
         return self.along, self.across
 
     def scaled(self, by: float) -> Window:
-        """The same about its own middle, `by` times as long and wide."""
-
-        def one(ends: tuple[float, float]) -> tuple[float, float]:
-            middle, half = 0.5 * (ends[0] + ends[1]), 0.5 * by * (ends[1] - ends[0])
-            return middle - half, middle + half
-
-        return Window(one(self.along), one(self.across))
+        """The same about where the pair touches first, `by` times as long and wide."""
+        return Window(*((by * low, by * high) for low, high in self.ends))
 
 
 @dataclass(frozen=True, eq=False)
@@ -329,7 +157,7 @@ def patch(met: Meeting, window: Window) -> Patch:
     plane = np.stack(np.meshgrid(a, b, indexing="ij"), axis=-1).reshape(-1, 2)
     surface, gap, on = _faces(met, plane)
     seen = surface.cut(on)
-    lines = _edge_lines(seen, (met.contact.pinion_flank, met.contact.wheel_flank), plane[on])
+    lines = _edge_lines(seen, met.flanks, plane[on])
     arcs = _arc(met, seen, plane[on], 0), _arc(met, seen, plane[on], 1)
     for line, arc in zip(lines, arcs, strict=True):
         if arc is not None:
@@ -344,7 +172,14 @@ def patch(met: Meeting, window: Window) -> Patch:
         cut=np.zeros((0, CORNERS, 2)),
         lines=lines,
         arcs=arcs,
-        **_cells(surface.cut(on), plane[on], np.full(on.sum(), size[0] * size[1]), gap[on], arcs),
+        **_cells(
+            met.flanks,
+            surface.cut(on),
+            plane[on],
+            np.full(on.sum(), size[0] * size[1]),
+            gap[on],
+            arcs,
+        ),
     )
 
 
@@ -354,7 +189,7 @@ def recut(p: Patch, kept: Array, corners: Array) -> Patch:
     surface, gap, on = _faces(p.meeting, plane)
     gap += _falls_away(p.arcs, plane)
     on &= np.isfinite(gap)
-    new = _cells(surface.cut(on), plane[on], flat[on], gap[on], p.arcs)
+    new = _cells(p.meeting.flanks, surface.cut(on), plane[on], flat[on], gap[on], p.arcs)
     grid = p.on.copy()
     grid[p.on] = kept
 
@@ -395,8 +230,8 @@ def on_arcs(p: Patch) -> Array:
 def _faces(met: Meeting, plane: Array) -> tuple[Surface, Array, Array]:
     """The pinion on rays at places (n, 2), the gap (n,) of sharp flanks, and where flanks face each other (n,)."""
     surface = met.surface(*plane.T)
-    gap = surface.gaps()
-    return surface, gap, np.isfinite(gap) & (surface.normal @ met.axes[2] > 0.5)
+    gap = surface.gap.copy()
+    return surface, gap, np.isfinite(gap) & (surface.upright > 0.5)
 
 
 def _falls_away(arcs: Sequence[Arc | None], plane: Array) -> Array:
@@ -413,24 +248,24 @@ def middles(corners: Array) -> tuple[Array, Array]:
 
 
 def _cells(
-    kept: Surface, plane: Array, flat: Array, gap: Array, arcs: Sequence[Arc | None]
+    flanks: Sequence[Flank],
+    kept: Surface,
+    plane: Array,
+    flat: Array,
+    gap: Array,
+    arcs: Sequence[Arc | None],
 ) -> dict[str, Any]:
     """What a patch says of each of its cells, by name."""
-    met = kept.meeting
     levers, places = kept.levers, (kept.pinion_place, kept.wheel_place)
-    flanks = (met.contact.pinion_flank, met.contact.wheel_flank)
     edges: list[Array] = []
-    for flank, field, arc, (s, h) in zip(
-        flanks, (kept.pinion, kept.wheel), arcs, places, strict=True
-    ):
-        low = np.asarray(field.lowest.bounds(s)[0])
+    for flank, low, arc, (s, h) in zip(flanks, kept.limits, arcs, places, strict=True):
         tip = flank.tip.at(s) - h if arc is None else np.full(len(s), np.inf)
         edges += [tip, s - flank.toe, flank.heel - s, h - low]
     return {
         "point": kept.point,
         "normal": kept.normal,
         "flat": flat,
-        "area": flat / (kept.normal @ met.axes[2]),
+        "area": flat / kept.upright,
         "gap": gap,
         "pinion_lever": levers[0],
         "wheel_lever": levers[1],

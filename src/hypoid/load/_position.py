@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -11,8 +12,9 @@ import numpy as np
 from ._active_set import ContactSolution, Outcome, solve_contact
 from ._cells import Cells, Teeth, compliance, parts
 from ._dense import on_one_thread
-from ._guess import Guess, first_window, guessed, places
-from ._patch import Meeting, Patch, patch
+from ._guess import Guess, first_rotation, first_window, guessed, places
+from ._meeting import Meeting
+from ._patch import Patch, patch
 from ._strips import bearing, deeper, with_strips
 
 Array = np.ndarray[Any, Any]
@@ -34,6 +36,11 @@ class PositionContact:
         return self.solution.outcome
 
     @property
+    def rotation(self) -> float:
+        """Of the pinion against the wheel, rad."""
+        return self.solution.rotation
+
+    @property
     def parts(self) -> tuple[slice, ...]:
         """Which cells of the solution are each patch's."""
         return parts(self.patches)
@@ -48,13 +55,18 @@ class PositionContact:
         total = float(self.solution.force.sum())
         return sum(share * force for share, force in shares) / total if total > 0.0 else 0.0
 
-    @property
+    @cached_property
     def guesses(self) -> dict[int, Guess]:
         """By pair, for a contact that is much like this one."""
         return {
-            p.meeting.pair: guessed(p, self.solution.force[part])
+            p.meeting.pair: guessed(p, self.solution.force[part], self.rotation)
             for p, part in zip(self.patches, self.parts, strict=True)
         }
+
+
+NOWHERE = PositionContact(
+    (), ContactSolution(np.zeros(0), 0.0, np.zeros(0), 0, Outcome.NO_CONTACT), False
+)
 
 
 @on_one_thread
@@ -69,20 +81,15 @@ def position_contact(
 
     `guesses` to start from, by pair, and about the `rotation`, rad, if they are known.
     """
-    known = dict(guesses or {})
-    ranked = sorted(meetings, key=lambda m: m.gap)
-    chosen = [
-        m
-        for m in ranked
-        if m.gap <= ranked[0].gap + max(1e-3, rotation * m.lever) or m.pair in known
-    ]
+    rotation = rotation or first_rotation(meetings, teeth, torque)
+    ranked = sorted(meetings, key=lambda m: m.gap - rotation * m.lever)
+    foretold = set(guesses or {})
+    chosen = [m for m in ranked if m.gap < rotation * m.lever or m.pair in foretold] or ranked[:1]
 
     def fresh(m: Meeting) -> Guess:
-        share = len(chosen) if m in chosen else len(ranked)
-        return Guess(first_window(m, teeth, torque / share))
+        return Guess(first_window(m, teeth, rotation))
 
-    foretold = set(known)
-    known = {m.pair: fresh(m) for m in chosen if m.pair not in known} | known
+    known = {m.pair: fresh(m) for m in chosen if m.pair not in foretold} | dict(guesses or {})
     cells = {m.pair: Cells(patch(m, known[m.pair].window), teeth) for m in chosen}
     blocks: dict[tuple[int, int], Array] = {}
     found: PositionContact | None = None
@@ -100,8 +107,9 @@ def position_contact(
         bearing = {pair for pair, guess in seen.items() if guess.touching is not None}
         moved = {pair: to for pair, guess in seen.items() if (to := guess.moved()) is not None}
         # late ones, and those whose foretold window may lie beside their contact
+        rotation = solution.rotation
         looked = cells.keys() - (foretold - bearing)
-        late = [m for m in ranked if m.pair not in looked and m.gap < solution.rotation * m.lever]
+        late = [m for m in ranked if m.pair not in looked and m.gap < rotation * m.lever]
         if not moved and not late:
             return _at_tips(replace(found, open_window=False), used, torque)
         for m in late:
@@ -111,10 +119,7 @@ def position_contact(
         for p in found.patches:
             if (window := moved.get(p.meeting.pair)) is not None:
                 cells[p.meeting.pair] = Cells(patch(p.meeting, window), teeth)
-    if found is None:
-        nothing = ContactSolution(np.zeros(0), 0.0, np.zeros(0), 0, Outcome.NO_CONTACT)
-        return PositionContact((), nothing, False)
-    return found
+    return found or NOWHERE
 
 
 def _contact(
