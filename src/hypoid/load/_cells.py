@@ -45,13 +45,9 @@ class Cells:
     @cached_property
     def weights(self) -> tuple[tuple[Array, Array], ...]:
         """Of pinion and wheel, the hats (m,) that these cells lie under, and their weights (n, m)."""
-        found: list[tuple[Array, Array]] = []
-        places = (self.patch.pinion_place, self.patch.wheel_place)
-        for member, at in zip((self.teeth.pinion, self.teeth.wheel), places, strict=True):
-            whole = member.hats.weights(*at)
-            under = np.unique(whole.indices)
-            found.append((under, whole[:, under].toarray()))
-        return tuple(found)
+        p, members = self.patch, (self.teeth.pinion, self.teeth.wheel)
+        places = (p.pinion_place, p.wheel_place)
+        return tuple(m.hats.over(*at) for m, at in zip(members, places, strict=True))
 
     @cached_property
     def half_space(self) -> Array:

@@ -39,6 +39,20 @@ class Hats:
 
     def weights(self, distance: Array, height: Array) -> Any:
         """Weights (n, hats), sparse, of the hats at (S, H), mm; rows add up to one."""
+        at, values = self._corners(distance, height)
+        ends = 4 * np.arange(len(at) + 1)
+        return sparse.csr_array((values.ravel(), at.ravel(), ends), shape=(len(at), self.count))
+
+    def over(self, distance: Array, height: Array) -> tuple[Array, Array]:
+        """The hats (m,) that lie over (S, H), mm, and their weights (n, m) there."""
+        at, values = self._corners(distance, height)
+        which, column = np.unique(at, return_inverse=True)
+        made = np.zeros((len(at), len(which)))
+        np.put_along_axis(made, column.reshape(at.shape), values, axis=1)
+        return which, made
+
+    def _corners(self, distance: Array, height: Array) -> tuple[Array, Array]:
+        """The four hats (n, 4) about each place, and their weights (n, 4)."""
         columns, rows = self.height.shape
         u = np.interp(distance, self.distance, np.arange(columns))
         i = np.minimum(u.astype(int), columns - 2)
@@ -50,8 +64,7 @@ class Hats:
         knot = i * rows + j
         at = np.stack([knot, knot + 1, knot + rows, knot + rows + 1], axis=1)
         values = np.stack([(1 - u) * (1 - v), (1 - u) * v, u * (1 - v), u * v], axis=1)
-        ends = 4 * np.arange(len(j) + 1)
-        return sparse.csr_array((values.ravel(), at.ravel(), ends), shape=(len(j), self.count))
+        return at, values
 
 
 @dataclass(frozen=True, eq=False)

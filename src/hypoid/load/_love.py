@@ -76,8 +76,8 @@ def mirrored_grid(
     reach = (NEAR * max(width, height)) ** 2
     room = -(-n // TOGETHER) * TOGETHER - n
     whole = (np.pad(v, [(0, 0)] * (v.ndim - 1) + [(0, room)]) for v in (x, y, apart))
-    far = _far_images(*whole, weights * width * height, np.array(reach))
-    found = np.asarray(far)[:n, :n].copy()
+    far = _far_images(*whole, weights * width * height, np.array(reach))  # goes on by itself
+    near: list[tuple[Array, Array, Array]] = []
     own = (x[:, None] - x) ** 2 + (y[:, None] - y) ** 2
     for line, weight, off in zip(lines, weights, apart, strict=True):
         if weight and 4.0 * off.min(initial=np.inf) ** 2 < reach:
@@ -85,7 +85,10 @@ def mirrored_grid(
             # seen from an eye's image the cell itself is what its image is to the eye
             there_x, there_y = mirrored(place, line).T
             way = (there_x[i] - x[j], there_y[i] - y[j]), (there_x[j] - x[i], there_y[j] - y[i])
-            found[i, j] += 0.5 * weight * sum(rectangle(*d, width, height) for d in way)
+            near.append((i, j, 0.5 * weight * sum(rectangle(*d, width, height) for d in way)))
+    found = np.asarray(far)[:n, :n].copy()
+    for i, j, seen in near:
+        found[i, j] += seen
     return found
 
 

@@ -18,6 +18,7 @@ from hypoid.geometry import Batch, Batched, Scalar
 
 Array = np.ndarray[Any, Any]
 STEPS, ARRIVED = 8, 1e-13  # most of Newton's, and when they end, rad
+MISSED = 1e-10  # rad by which a ray that meets the pinion is off it at most
 FARTHEST = 1.0  # mm: the longest of them
 BLOCK = 275  # rays that are followed together: as many as a patch has cells
 
@@ -94,13 +95,14 @@ def _met(
             zero[i] + a * axes[0, i] + b * axes[1, i] + height * axes[2, i] for i in range(3)
         )
 
-    def miss(x: Batch, y: Batch, z: Batch) -> Batch:
-        angle = pinion.angle(*pinion.cone.cone_distance_height(z, jnp.sqrt(x * x + y * y)))
-        off = jnp.arctan2(y, x) - angle
+    def miss(height: Batch) -> Batch:
+        x, y, z = at(height)
+        place = pinion.cone.cone_distance_height(z, jnp.sqrt(x * x + y * y))
+        off = jnp.arctan2(y, x) - pinion.angle(*place)
         return off - 2.0 * jnp.pi * jnp.round(off / (2.0 * jnp.pi))
 
     def missed(height: Batch) -> tuple[Batch, Batch]:
-        return jax.jvp(lambda h: miss(*at(h)), (height,), (jnp.ones_like(height),))
+        return jax.jvp(miss, (height,), (jnp.ones_like(height),))
 
     def step(state: tuple[Any, ...]) -> tuple[Any, ...]:
         count, height, off, slope = state
@@ -111,13 +113,16 @@ def _met(
         return (state[0] < STEPS) & (jnp.abs(state[2]).max() > ARRIVED)
 
     start = jnp.zeros_like(a)
-    _, height, *_ = jax.lax.while_loop(going, step, (0, start, *missed(start)))
+    _, height, off, _ = jax.lax.while_loop(going, step, (0, start, *missed(start)))
     own = at(height)
     x, y, z = own
-    slopes = [
-        jax.jvp(miss, own, tuple(jnp.full_like(a, float(i == k)) for i in range(3)))[1]
-        for k in range(3)
-    ]
+    rho = jnp.sqrt(x * x + y * y)
+    place = pinion.cone.cone_distance_height(z, rho)
+    one, none = jnp.ones_like(a), jnp.zeros_like(a)
+    along, across = (jax.jvp(pinion.angle, place, way)[1] for way in ((one, none), (none, one)))
+    sine, cosine = pinion.cone.sine, pinion.cone.cosine
+    outward, axial = along * sine + across * cosine, along * cosine - across * sine
+    slopes = -y / rho**2 - outward * x / rho, x / rho**2 - outward * y / rho, -axial
     up = sum(slopes[i] * axes[2, i] for i in range(3))
     size = jnp.sign(up) / jnp.sqrt(sum(s * s for s in slopes))
     out = tuple(s * size for s in slopes)
@@ -125,11 +130,11 @@ def _met(
     pinion_lever = -mount.sense * (x * out[1] - y * out[0])
     wheel_lever = jnp.abs(point[0] * normal[1] - point[1] * normal[0])
     places = (
-        pinion.cone.cone_distance_height(z, jnp.sqrt(x * x + y * y)),
+        place,
         wheel.cone.cone_distance_height(point[2], jnp.sqrt(point[0] ** 2 + point[1] ** 2)),
     )
     leads = lead(mount, wheel, phi, own)
-    held = pinion.holds(*places[0]) & jnp.isfinite(leads)
+    held = pinion.holds(*place) & jnp.isfinite(leads) & (jnp.abs(off) < MISSED)
     gap = jnp.where(held, (rigid - leads) * wheel_lever, jnp.inf)
     limits = (f.lowest.bounds(s)[0] for f, (s, _) in zip((pinion, wheel), places, strict=True))
     levers = pinion_lever, wheel_lever
