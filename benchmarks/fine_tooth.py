@@ -21,7 +21,6 @@ import numpy as np
 import hypoid
 from hypoid.load import MESHES, Elements
 from hypoid.load import _patch as patches
-from hypoid.load import _position as positions
 from hypoid.load._meeting import Meeting
 from hypoid.load._setup import elements_of
 from hypoid.pair import GearPair
@@ -92,11 +91,9 @@ def main() -> None:
         found |= {n: by_elements(r, 1e3 * torque, ends) for n, r in references.items()}
         found |= {n: by_method(met, t, 1e3 * torque, ends) for n, t in teeth.items()}
         before = patches.COLUMNS, patches.ROWS
-        patches.COLUMNS = positions.COLUMNS = 2 * before[0]
-        patches.ROWS = positions.ROWS = 2 * before[1]
+        patches.COLUMNS, patches.ROWS = 2 * before[0], 2 * before[1]
         found["here_cells_x4"] = by_method(met, teeth["here"], 1e3 * torque, ends)
-        patches.COLUMNS = positions.COLUMNS = before[0]
-        patches.ROWS = positions.ROWS = before[1]
+        patches.COLUMNS, patches.ROWS = before
         names = ["rotation [urad]", "greatest pressure [MPa]", f"over {RIDGE:g} mm [MPa]"]
         names += [f"{a:.2f} to {b:.2f} mm [N/mm]" for a, b in pairwise(ends)]
         values = {n: [1e6 * r.rotation, r.peak, r.ridge, *r.line] for n, r in found.items()}

@@ -92,6 +92,16 @@ def test_no_torque(hypoid: Any) -> None:
     assert '--torque "110 N m"' in err
 
 
+@pytest.mark.parametrize("text", ["0", "-5", "0 N m", "much"])
+@pytest.mark.parametrize("command", [("load",), ("export", "--calculix", "nowhere.inp")])
+def test_the_example_of_a_torque_is_one_that_works(
+    hypoid: Any, command: tuple[str, ...], text: str
+) -> None:
+    status, _, err = hypoid(command[0], RELIEF, *command[1:], f"--torque={text}")
+    assert status == 2
+    assert '--torque "110 N m"' in err
+
+
 @pytest.mark.slow
 def test_a_report_under_load(hypoid: Any, tmp_path: Path) -> None:
     target = tmp_path / "report.html"

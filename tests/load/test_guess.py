@@ -57,6 +57,14 @@ def test_a_contact_that_leaps_is_followed_with_care() -> None:
     np.testing.assert_allclose(found.along, (3.2, 7.2), atol=1e-12)
 
 
+def test_a_small_contact_does_not_shrink_to_nothing_as_a_large_one_shrinks() -> None:
+    wide = Window((-10.0, 15.0), (-1.2, 1.0))
+    earlier, now = (seen(wide, Window((-9.0, end), (-0.8, 0.8))) for end in (14.0, 12.0))
+    small = seen(Window((-1.0, 1.5), (-1.2, 1.0)), Window((-0.8, 0.8), (-0.8, 0.8)))
+    assert now.changed(earlier, now) is not None
+    assert small.changed(earlier, now) is None
+
+
 def test_without_the_other_contacts_nothing_is_foretold() -> None:
     now = seen(Window((-5.0, 7.5), (-1.2, 1.0)), Window((-3.5, 6.5), (-0.6, 1.0)))
     nothing = Guess(now.window)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from hypoid.geometry import DesignError, Problem
 from hypoid.io import QuantityError, parse
 
+from ._load_options import pinion_torque
 from ._output import say
 
 if TYPE_CHECKING:
@@ -52,12 +53,7 @@ def contact_request(
         problems.append(Problem("--member", member, expected, EXAMPLE))
     if torque is None:
         problems.append(Problem("--torque", "none", "a torque on the pinion", EXAMPLE))
-    value = _read("--torque", torque or "1 N m", "torque", problems)
-    if value <= 0.0:
-        other = "coast" if direction == "drive" else "drive"
-        expected = f"a torque greater than 0; the other way round is the other direction, {other}"
-        example = f'--direction {other} --torque "{(torque or "").strip().lstrip("-− ")}"'
-        problems.append(Problem("--torque", f'"{torque}"', expected, example))
+    value = 0.0 if torque is None else pinion_torque(torque, direction, problems)
     angle = _read("--position", position, "angle", problems)
     if finer < 1:
         problems.append(Problem("--finer", str(finer), "1 or more elements for one", "--finer 4"))

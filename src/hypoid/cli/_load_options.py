@@ -42,6 +42,28 @@ Figure = Annotated[
 Torques = Annotated[list[str] | None, TORQUE]
 
 
+ENOUGH = '--torque "110 N m"'
+
+
+def pinion_torque(text: str, direction: Direction, problems: list[Problem]) -> float:
+    """A torque on the pinion, N mm; of what is wrong with it a problem."""
+    try:
+        value = parse(text, "torque")
+    except QuantityError as error:
+        value = parse(error.example, "torque")
+        example = f'--torque "{error.example}"' if value > 0.0 else ENOUGH
+        problems.append(Problem("--torque", error.given, error.expected, example))
+        return value
+    if not value > 0.0:
+        expected, example = "a torque greater than 0", ENOUGH
+        if value < 0.0:
+            other = "coast" if direction == "drive" else "drive"
+            expected += f"; the other way round is the other direction, {other}"
+            example = f'--direction {other} --torque "{text.strip().lstrip("-− ")}"'
+        problems.append(Problem("--torque", f'"{text}"', expected, example))
+    return value
+
+
 @Parameter(name="*")
 @dataclass(frozen=True)
 class LoadOptions:
@@ -109,7 +131,6 @@ def request(options: LoadOptions, figure: Path | None = None) -> Request:
     from hypoid.load import STEEL, material
 
     problems: list[Problem] = []
-    torques: list[float] = []
     direction, positions = options.direction, options.positions
     errors = {
         "--offset": options.offset,
@@ -117,24 +138,9 @@ def request(options: LoadOptions, figure: Path | None = None) -> Request:
         "--wheel-axial": options.wheel_axial,
         "--shaft-angle": options.shaft_angle,
     }
-    other = "coast" if direction == "drive" else "drive"
     if not options.torque:
-        problems.append(Problem("--torque", "none", "a torque on the pinion", '--torque "110 N m"'))
-    for text in options.torque or []:
-        try:
-            torques.append(parse(text, "torque"))
-        except QuantityError as error:
-            problems.append(
-                Problem("--torque", error.given, error.expected, f'--torque "{error.example}"')
-            )
-            continue
-        if not torques[-1] > 0.0:
-            expected = "a torque greater than 0"
-            example = '--torque "110 N m"'
-            if torques[-1] < 0.0:
-                expected += f"; the other way round is the other direction, {other}"
-                example = f'--direction {other} --torque "{text.strip().lstrip("-− ")}"'
-            problems.append(Problem("--torque", f'"{text}"', expected, example))
+        problems.append(Problem("--torque", "none", "a torque on the pinion", ENOUGH))
+    torques = [pinion_torque(text, direction, problems) for text in options.torque or []]
     if positions < 5 or positions % 2 == 0:
         expected = "an odd number, 5 or more"
         problems.append(Problem("--positions", str(positions), expected, "--positions 21"))

@@ -22,7 +22,7 @@ MARGIN, CLEAR = (
 USED = 0.55  # of a window's length that the contact fills, at least
 SPARE = (2.5, 1.6)  # cells, along and across, that a contact foretold stands off every border
 MOST = 0.3  # of a contact's length by which one of its ends is thought to move
-GROWN = 4.0  # times: the most that a contact is thought to grow
+GROWN = 4.0  # times: the most that a contact is thought to grow or to shrink
 OWN = 0.5  # of a pair's approach that its surfaces take: the rest bends teeth
 SMALLEST = 1e-4  # mm: an approach that a first window is made for, at least
 FILLED = 0.45  # share of a patch, nearest first, that is thought to touch
@@ -35,9 +35,7 @@ class Guess:
     window: Window
     touching: Array | None = None  # (columns, rows) bool, of `frame`
     frame: Window | None = None  # the window itself where None
-    approach: float = (
-        0.0  # mm by which the pair's surfaces would then be in each other, were nothing to give
-    )
+    approach: float = 0.0  # mm by which the surfaces would be in each other, were nothing to give
 
     @property
     def contact(self) -> Window | None:
@@ -61,6 +59,8 @@ class Guess:
             most = MOST * max(high - low, end - start)
             steps = np.clip(np.subtract((start, end), was), -most, most)
             ends.append((low + steps[0], high + steps[1]))
+            if ends[-1][1] - ends[-1][0] < (high - low) / GROWN:  # steps that are another's size
+                return None
         return self._stretched(now, Window(*ends))
 
     def grown(self, approach: float) -> Guess | None:
@@ -75,7 +75,7 @@ class Guess:
         """The same with its contact, which fills the window `now`, stretched to fill another."""
         window, frame = [], []
         for axis, ((low, high), (start, end)) in enumerate(zip(now.ends, then.ends, strict=True)):
-            spare = SPARE[axis] / ((COLUMNS, ROWS)[axis] - 2.0 * SPARE[axis]) * (end - start)
+            spare = _room(axis) * (end - start)
             window.append((start - spare, end + spare))
             by = (end - start) / (high - low)
             frame.append(tuple(start + (v - low) * by for v in self._seen.ends[axis]))
@@ -120,6 +120,11 @@ def _used(touching: Array, axis: int) -> tuple[int, int]:
     """First column or row in which cells touch, and the one after the last."""
     used = np.flatnonzero(touching.any(axis=1 - axis))
     return int(used[0]), int(used[-1]) + 1
+
+
+def _room(axis: int) -> float:
+    """What a window leaves free at either end of a contact that is foretold, in its lengths."""
+    return SPARE[axis] / ((COLUMNS, ROWS)[axis] - 2.0 * SPARE[axis])
 
 
 def guessed(p: Patch, force: Array, rotation: float) -> Guess:
@@ -170,8 +175,7 @@ def first_window(met: Meeting, teeth: Teeth, rotation: float) -> Window:
     line_load = 2.0 * _line_force(met, teeth, approach) / (np.pi * length)
     width = np.sqrt(4.0 * line_load / (np.pi * teeth.plane_modulus * high))
     a, b = (
-        min(half / (1.0 - 2.0 * spare / count), most)
-        for half, spare, count in zip((length, width), SPARE, (COLUMNS, ROWS), strict=True)
+        min(half * (1.0 + 2.0 * _room(axis)), most) for axis, half in enumerate((length, width))
     )
     return Window((-a, a), (-min(b, a), min(b, a)))
 
