@@ -233,18 +233,18 @@ def test_cells_of_a_grid_as_polygons_are_the_grid() -> None:
     np.testing.assert_allclose(found, regular_grid(columns, rows, width, height), rtol=1 / 290)
     line = np.array([1.0, 0.3, 0.8])
     found = unlike(mirrored(place, line), place, corners, area, 0) * area
-    image = mirrored_grid(x, y, line[None], np.ones(1), width, height)
+    image = mirrored_grid(place, line[None], np.ones(1), width, height)
     np.testing.assert_allclose(found, image, rtol=1 / 290)
 
 
 def test_images_beyond_a_line() -> None:
     """Of a cell with its middle on the line the image is the cell; elsewhere it is seen from the mirrored place."""
-    x, y = np.array([0.0, 1.0, 2.0]), np.array([0.0, 0.3, -0.2])
+    place = np.array([(0.0, 0.0), (1.0, 0.3), (2.0, -0.2)])
     one = np.ones(1)
-    found = mirrored_grid(x, y, np.array([[0.0, 2.0, 0.0]]), one, 0.5, 0.25)  # the line x = 0
+    found = mirrored_grid(place, np.array([[0.0, 2.0, 0.0]]), one, 0.5, 0.25)  # the line x = 0
     assert found[0, 0] == pytest.approx(rectangle(np.array(0.0), np.array(0.0), 0.5, 0.25))
     far_off = rectangle(np.array(3.0), np.array(0.5), 0.5, 0.25)
     assert found[1, 2] == pytest.approx(far_off, rel=2e-3)  # seen as a point
     np.testing.assert_allclose(found, found.T)
-    far = mirrored_grid(x, y, np.array([[1e3, 1.0, 0.0]]), one, 0.5, 0.25)
+    far = mirrored_grid(place, np.array([[1e3, 1.0, 0.0]]), one, 0.5, 0.25)
     assert far.max() < 1e-4

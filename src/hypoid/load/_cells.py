@@ -55,9 +55,9 @@ class Cells:
         p, whole = self.patch, self.patch.whole
         moduli = [m.made_of.plane_modulus for m in (self.teeth.pinion, self.teeth.wheel)]
         lines, weights = np.concatenate(p.lines), np.repeat(IMAGE / np.array(moduli), 3)
-        on, x, y = p.on.ravel(), *p.plane[:whole].T
-        grid = mirrored_grid(x, y, lines, weights, *p.size)
-        grid += regular_grid(*p.on.shape, *p.size)[np.ix_(on, on)] / self.teeth.plane_modulus
+        (columns, rows), on = p.on.shape, p.on.ravel()
+        grid = mirrored_grid(p.plane[:whole], lines, weights, *p.size)
+        grid += regular_grid(columns, rows, *p.size)[np.ix_(on, on)] / self.teeth.plane_modulus
         grid *= 1.0 / (np.pi * p.size[0] * p.size[1])
         if not len(p.cut):
             return grid

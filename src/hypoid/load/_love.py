@@ -60,23 +60,20 @@ def mirrored(place: Array, line: Array) -> Array:
     return place - 2.0 * apart[:, None] * square
 
 
-def mirrored_grid(
-    x: Array, y: Array, lines: Array, weights: Array, width: float, height: float
-) -> Array:
-    """Weighted integrals of 1/r (mm) at cells' middles (n,) of their images beyond straight lines, symmetric (n, n).
+def mirrored_grid(place: Array, lines: Array, weights: Array, width: float, height: float) -> Array:
+    """Weighted integrals of 1/r (mm) at cells' middles (n, 2) of their images beyond straight lines, symmetric (n, n).
 
     The lines (k, 3) are c0 + c1 x + c2 y = 0, positive on the cells' side, and count with the weights (k,); one
     without a direction is none.
     """
-    n, size = len(x), np.hypot(lines[:, 1], lines[:, 2])
+    n, size, (x, y) = len(place), np.hypot(lines[:, 1], lines[:, 2]), place.T
     weights = np.where(size > 0.0, weights, 0.0)
     lines = lines / np.where(size > 0.0, size, 1.0)[:, None]
-    place = np.stack([x, y], axis=-1)
     apart = lines[:, :1] + lines[:, 1:] @ place.T
     reach = (NEAR * max(width, height)) ** 2
     room = -(-n // TOGETHER) * TOGETHER - n
     whole = (np.pad(v, [(0, 0)] * (v.ndim - 1) + [(0, room)]) for v in (x, y, apart))
-    far = _far_images(*whole, weights * width * height, np.array(reach))  # goes on by itself
+    points = _as_points(*whole, weights * width * height, np.array(reach))  # goes on by itself
     near: list[tuple[Array, Array, Array]] = []
     own = (x[:, None] - x) ** 2 + (y[:, None] - y) ** 2
     for line, weight, off in zip(lines, weights, apart, strict=True):
@@ -85,24 +82,24 @@ def mirrored_grid(
             # seen from an eye's image the cell itself is what its image is to the eye
             there_x, there_y = mirrored(place, line).T
             way = (there_x[i] - x[j], there_y[i] - y[j]), (there_x[j] - x[i], there_y[j] - y[i])
-            near.append((i, j, 0.5 * weight * sum(rectangle(*d, width, height) for d in way)))
-    found = np.asarray(far)[:n, :n].copy()
-    for i, j, seen in near:
-        found[i, j] += seen
+            exact = 0.5 * sum(rectangle(*d, width, height) for d in way)
+            near.append((i, j, weight * (exact - width * height / np.sqrt(reach))))
+    found = np.asarray(points)[:n, :n].copy()
+    for i, j, more in near:
+        found[i, j] += more
     return found
 
 
 @compiled_fused
-def _far_images(x: Batch, y: Batch, apart: Batch, weights: Batch, reach: Batch) -> Batch:
-    """Sum (n, n) of weights (k,) over the distances of places (n,) from images `apart` (k, n) from lines.
+def _as_points(x: Batch, y: Batch, apart: Batch, weights: Batch, reach: Batch) -> Batch:
+    """Sum (n, n) of weights (k,) over the distances of places (n,) from images, `apart` (k, n) from their lines.
 
-    Without those whose square is less than `reach`.
+    No distance counts as shorter than the root of `reach`.
     """
     own = (x[:, None] - x) ** 2 + (y[:, None] - y) ** 2
     total = jnp.zeros_like(own)
     for off, weight in zip(apart, weights, strict=True):
-        away = own + 4.0 * off[:, None] * off
-        total = total + jnp.where(away < reach, 0.0, weight / jnp.sqrt(jnp.maximum(away, reach)))
+        total += weight / jnp.sqrt(jnp.maximum(own + 4.0 * off[:, None] * off, reach))
     return total
 
 
