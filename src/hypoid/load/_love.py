@@ -11,6 +11,7 @@ from typing import Any
 
 import jax.numpy as jnp
 import numpy as np
+from scipy.spatial.distance import cdist
 
 from hypoid.geometry import Batch, compiled_fused
 
@@ -110,14 +111,16 @@ def polygon(eye: Array, corners: Array) -> Array:
     places of its ends along it. Corners go round either way; one that is given twice counts once.
     """
     tiny = np.finfo(float).tiny
-    ends = np.roll(corners, -1, axis=-2)
-    turn = np.sign((corners[..., 0] * ends[..., 1] - ends[..., 0] * corners[..., 1]).sum(axis=-1))
-    total = np.zeros(np.broadcast_shapes(eye.shape, (*corners.shape[:-2], 2))[:-1])
-    for k in range(corners.shape[-2]):
-        start, edge = corners[..., k, :] - eye, ends[..., k, :] - corners[..., k, :]
-        length = np.maximum(np.sqrt((edge * edge).sum(axis=-1)), tiny)
-        along = (start * edge).sum(axis=-1) / length
-        apart = turn * (start[..., 0] * edge[..., 1] - start[..., 1] * edge[..., 0]) / length
+    (x, y), (away_x, away_y) = np.moveaxis(corners, -1, 0), np.moveaxis(eye, -1, 0)
+    next_x, next_y = np.roll(x, -1, axis=-1), np.roll(y, -1, axis=-1)
+    turn = np.sign((x * next_y - next_x * y).sum(axis=-1))
+    total = np.zeros(np.broadcast_shapes(away_x.shape, x.shape[:-1]))
+    for k in range(x.shape[-1]):
+        start_x, start_y = x[..., k] - away_x, y[..., k] - away_y
+        edge_x, edge_y = next_x[..., k] - x[..., k], next_y[..., k] - y[..., k]
+        length = np.maximum(np.hypot(edge_x, edge_y), tiny)
+        along = (start_x * edge_x + start_y * edge_y) / length
+        apart = turn * (start_x * edge_y - start_y * edge_x) / length
         size = np.maximum(np.abs(apart), tiny)
         total += apart * (np.arcsinh((along + length) / size) - np.arcsinh(along / size))
     return total
@@ -130,23 +133,23 @@ def unlike(eye: Array, place: Array, corners: Array, area: Array, first: int) ->
     larger of two is seen from the smaller's middle, which is nearly the mean over both; `eye` (n, 2) are the
     middles, or what they look like in a mirror.
     """
-    n = len(area)
-    i, j = (v.ravel() for v in np.meshgrid(np.arange(n), np.arange(first, n), indexing="ij"))
-    once = (i < first) | (i <= j)
-    i, j = i[once], j[once]
-    large, small = np.where(area[i] > area[j], (i, j), (j, i))
-    away = np.sqrt(((eye[small] - place[large]) ** 2).sum(axis=1))
-    near = away < NEAR * np.ptp(corners, axis=1).max(axis=1)[large]
-    seen = 1.0 / np.where(near, 1.0, away)
+    extent = NEAR * np.ptp(corners, axis=1).max(axis=1)
+    larger = area[:, None] > area[first:]
+    seen = cdist(eye, place[first:])
+    near = seen < np.where(larger, extent[:, None], extent[first:])
+    seen[near] = 1.0
+    np.divide(1.0, seen, out=seen)
+    near[first:] = np.triu(near[first:])  # each two once
+    i, j = np.nonzero(near)
+    large, small = np.where(larger[i, j], (i, j + first), (j + first, i))
     four = (corners[:, 4:] == corners[:, 3:4]).all(axis=(1, 2))[large]
-    for which, count in ((near & four, 4), (near & ~four, corners.shape[1])):
+    for which, count in ((four, 4), (~four, corners.shape[1])):
         at = large[which]
-        seen[which] = polygon(eye[small[which]], corners[at, :count]) / area[at]
-    found = np.zeros((n, n - first))
-    found[i, j - first] = seen
-    both = i >= first
-    found[j[both], i[both] - first] = seen[both]
-    return found
+        exact = polygon(eye[small[which]], corners[at, :count]) / area[at]
+        seen[i[which], j[which]] = exact
+    below = np.tril_indices(len(area) - first, -1)
+    seen[first:][below] = seen[first:].T[below]
+    return seen
 
 
 def parallelogram(offset: Array, first: Array, second: Array) -> Array:

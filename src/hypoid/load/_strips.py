@@ -150,6 +150,8 @@ def _strip(p: Patch, arc: Arc, rows: Array) -> list[Array]:
 
 def _beyond(corners: Array, apart: Array) -> Array:
     """What is left (m, 2) of a convex polygon (k, 2) where `apart` (k,) of a line is positive; nothing if no area."""
+    if apart.min() >= 0.0:
+        return corners
     made: list[Array] = []
     for k, (here, to) in enumerate(zip(apart, np.roll(apart, -1), strict=True)):
         if here >= 0.0:
