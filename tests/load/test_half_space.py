@@ -237,6 +237,26 @@ def test_cells_of_a_grid_as_polygons_are_the_grid() -> None:
     np.testing.assert_allclose(found, image, rtol=1 / 290)
 
 
+def test_images_beyond_several_lines_are_the_sum_of_each_ones() -> None:
+    """By their weights, cells beyond a line among them; a line without a direction is none.
+
+    Polygons see an oblique image one way, grids the mean of both.
+    """
+    width, height = 0.5, 0.25
+    grid = np.meshgrid(np.arange(9) * width, np.arange(5) * height, indexing="ij")
+    place = np.stack(grid, axis=-1).reshape(-1, 2)
+    corners = boxes(*place.T, width, height)[:, [0, 1, 2, 3, 3, 3]]
+    area = np.full(len(place), width * height)
+    lines = np.array([(0.3, 1.0, 0.2), (-2.0, 2.0, 0.0), (5.0, -0.3, -1.0), (-1.0, 0.0, 0.0)])
+    weights = np.array([1.0, 0.4, 2.5, 7.0])
+    found = mirrored_grid(place, lines, weights, width, height)
+    one_by_one = sum(
+        weight * unlike(mirrored(place, line), place, corners, area, 0) * area
+        for line, weight in zip(lines[:3], weights, strict=False)
+    )
+    np.testing.assert_allclose(found, one_by_one, rtol=0.01)
+
+
 def test_images_beyond_a_line() -> None:
     """Of a cell with its middle on the line the image is the cell; elsewhere it is seen from the mirrored place."""
     place = np.array([(0.0, 0.0), (1.0, 0.3), (2.0, -0.2)])

@@ -20,13 +20,15 @@ from hypoid.load import (
     LoadedContact,
     Outcome,
     ToothCompliance,
+    _position,
     loaded_contact,
     root_stress,
     tooth_compliance,
 )
 from hypoid.load._cells import Cells, compliance
-from hypoid.load._guess import Guess
+from hypoid.load._guess import Guess, first_rotation, first_window
 from hypoid.load._load_case import _spline_range
+from hypoid.load._loaded import solved_positions
 from hypoid.load._meeting import meeting
 from hypoid.load._patch import EDGES, Window, patch
 from hypoid.load._position import position_contact
@@ -183,6 +185,48 @@ def test_four_times_the_cells_change_little(
         for p, part in zip(fine.patches, fine.parts, strict=True)
     ]
     assert max(peaks) == pytest.approx(max(coarse), rel=0.03)
+
+
+def test_what_is_foretold_is_found(loaded: LoadedContact, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Torques close together, one position after the other: most contacts want no second window."""
+    solved: list[int] = []
+
+    def counted(cells: Any, *rest: Any) -> Any:
+        solved.append(len(cells))
+        return contact(cells, *rest)
+
+    contact = _position._contact
+    monkeypatch.setattr(_position, "_contact", counted)
+    torques = [2e4, 3e4, 4e4, 5e4, 6e4]
+    steps = solved_positions(loaded.unloaded, loaded.teeth, torques, 10)
+    next(steps), next(steps)
+    solved.clear()
+    next(steps)
+    assert len(torques) <= len(solved) <= 2 * len(torques)
+
+
+@pytest.mark.parametrize("torque", TORQUES)
+def test_where_nothing_is_known_the_first_guess_is_near(
+    loaded: LoadedContact, torque: float
+) -> None:
+    """Line contacts that take half of the approach: rotation within half, first windows within four times."""
+    where = len(loaded.unloaded.phi) // 2
+    met = [m for k in range(-4, 5) if (m := meeting(loaded.unloaded, where, k)) is not None]
+    found = at(loaded, torque)
+    assert first_rotation(met, loaded.teeth, torque) == pytest.approx(found.rotation, rel=0.5)
+    most = max(found.patches, key=lambda p: found.guesses[p.meeting.pair].approach)
+    contact = found.guesses[most.meeting.pair].contact
+    assert contact is not None
+    window = first_window(most.meeting, loaded.teeth, found.rotation)
+    for ends, seen in zip(window.ends, contact.ends, strict=True):
+        assert 0.25 < np.ptp(ends) / np.ptp(seen) < 4.0
+
+
+def test_rays_that_miss_the_flank_have_no_gap(loaded: LoadedContact) -> None:
+    met = meeting(loaded.unloaded, len(loaded.unloaded.phi) // 2, 0)
+    assert met is not None
+    far = np.array([-200.0, 0.0, 30.0, 200.0])
+    assert np.isfinite(met.surface(far, 0.0 * far).gap).tolist() == [False, True, False, False]
 
 
 def test_gaps_are_those_of_the_exact_surfaces(loaded: LoadedContact) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
@@ -50,10 +51,12 @@ def pinion_torque(text: str, direction: Direction, problems: list[Problem]) -> f
     try:
         value = parse(text, "torque")
     except QuantityError as error:
-        value = parse(error.example, "torque")
-        example = f'--torque "{error.example}"' if value > 0.0 else ENOUGH
+        example = ENOUGH
+        with suppress(QuantityError):  # a number that is too large is none with a unit either
+            if parse(error.example, "torque") > 0.0:
+                example = f'--torque "{error.example}"'
         problems.append(Problem("--torque", error.given, error.expected, example))
-        return value
+        return 0.0
     if not value > 0.0:
         expected, example = "a torque greater than 0", ENOUGH
         if value < 0.0:

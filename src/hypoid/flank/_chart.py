@@ -37,6 +37,7 @@ from ._envelope import Surface, axial_radial_angle, newton_pair
 
 COLUMNS, ROWS = 14, 12  # polynomial orders along S and across
 ALONG_EDGE = 20  # nodes along an edge arc, to find its lowest point
+TINY = 1e-300  # of a height: where derivatives of its root still are numbers
 SHORT = 0.05  # mm by which an edge may miss that reserve
 RESERVE = 0.5  # mm that a chart reaches beyond the tooth's tip, where the edge does
 
@@ -102,7 +103,7 @@ class Chart:
         low, high = horner_line(self.low, x), horner_line(self.high, x)
         t = (height - low) / (high - low)
         xp = namespace(distance, height)
-        t = xp.where(self.rooted > 0.5, xp.sqrt(xp.maximum(t, 0.0)), t)
+        t = xp.where(self.rooted > 0.5, xp.sqrt(xp.maximum(t, TINY)), t)
         return x, 2.0 * t - 1.0
 
 

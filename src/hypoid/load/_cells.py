@@ -63,7 +63,8 @@ class Cells:
             return grid
         rest = unlike(p.plane, p.plane, p.corners, p.flat, whole) / self.teeth.plane_modulus
         for line, weight in zip(lines, weights, strict=True):
-            rest += weight * unlike(mirrored(p.plane, line), p.plane, p.corners, p.flat, whole)
+            if line[1:].any():
+                rest += weight * unlike(mirrored(p.plane, line), p.plane, p.corners, p.flat, whole)
         rest *= 1.0 / np.pi
         return np.block([[grid, rest[:whole]], [rest[:whole].T, rest[whole:]]])
 

@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
+from . import _patch as patches
 from ._cells import Teeth
 from ._meeting import Meeting
-from ._patch import COLUMNS, ROWS, Patch, Window
+from ._patch import Patch, Window
 
 Array = np.ndarray[Any, Any]
 GROW = 0.3  # of a window's length by which a border moves out that the contact touches
@@ -49,9 +50,9 @@ class Guess:
             ends.append((low + first * size, low + last * size))
         return Window(*ends)
 
-    def changed(self, first: Guess | None, then: Guess | None) -> Guess | None:
+    def changed(self, first: Guess, then: Guess) -> Guess | None:
         """What becomes of this contact if its ends move as from `first` to `then`, None where one is not known."""
-        now, before, after = self.contact, first and first.contact, then and then.contact
+        now, before, after = self.contact, first.contact, then.contact
         if now is None or before is None or after is None:
             return None
         ends: list[tuple[float, float]] = []
@@ -124,7 +125,7 @@ def _used(touching: Array, axis: int) -> tuple[int, int]:
 
 def _room(axis: int) -> float:
     """What a window leaves free at either end of a contact that is foretold, in its lengths."""
-    return SPARE[axis] / ((COLUMNS, ROWS)[axis] - 2.0 * SPARE[axis])
+    return SPARE[axis] / ((patches.COLUMNS, patches.ROWS)[axis] - 2.0 * SPARE[axis])
 
 
 def guessed(p: Patch, force: Array, rotation: float) -> Guess:
@@ -169,13 +170,12 @@ def first_window(met: Meeting, teeth: Teeth, rotation: float) -> Window:
     """Where a pair would touch at a rotation, rad: as long as its approach asks for, as wide as a line contact."""
     approach = max(_approach(met, rotation), SMALLEST)
     low, high = met.curvature
-    flank = met.contact.pinion_flank
-    most = 2.0 * float(flank.tip.at(flank.heel) - flank.root.at(flank.heel))
     length = np.sqrt(2.0 * approach / low)
     line_load = 2.0 * _line_force(met, teeth, approach) / (np.pi * length)
     width = np.sqrt(4.0 * line_load / (np.pi * teeth.plane_modulus * high))
     a, b = (
-        min(half * (1.0 + 2.0 * _room(axis)), most) for axis, half in enumerate((length, width))
+        min(half * (1.0 + 2.0 * _room(axis)), 2.0 * met.depth)
+        for axis, half in enumerate((length, width))
     )
     return Window((-a, a), (-min(b, a), min(b, a)))
 

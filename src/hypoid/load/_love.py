@@ -16,7 +16,7 @@ from scipy.spatial.distance import cdist
 from hypoid.geometry import Batch, compiled_fused
 
 Array = np.ndarray[Any, Any]
-TOGETHER = 275  # cells whose images are computed at once: as many as a patch has
+CELLS = 275  # that are computed together: as many as a patch has
 NEAR = 5.0  # cells this many lengths apart see each other as points, within 0.34 %
 
 
@@ -72,13 +72,13 @@ def mirrored_grid(place: Array, lines: Array, weights: Array, width: float, heig
     lines = lines / np.where(size > 0.0, size, 1.0)[:, None]
     apart = lines[:, :1] + lines[:, 1:] @ place.T
     reach = (NEAR * max(width, height)) ** 2
-    room = -(-n // TOGETHER) * TOGETHER - n
+    room = -(-n // CELLS) * CELLS - n
     whole = (np.pad(v, [(0, 0)] * (v.ndim - 1) + [(0, room)]) for v in (x, y, apart))
     points = _as_points(*whole, weights * width * height, np.array(reach))  # goes on by itself
     near: list[tuple[Array, Array, Array]] = []
     own = (x[:, None] - x) ** 2 + (y[:, None] - y) ** 2
     for line, weight, off in zip(lines, weights, apart, strict=True):
-        if weight and 4.0 * off.min(initial=np.inf) ** 2 < reach:
+        if weight and 4.0 * np.abs(off).min(initial=np.inf) ** 2 < reach:
             i, j = np.nonzero(np.multiply.outer(4.0 * off, off) < reach - own)
             # seen from an eye's image the cell itself is what its image is to the eye
             there_x, there_y = mirrored(place, line).T

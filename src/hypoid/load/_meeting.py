@@ -18,10 +18,7 @@ from ._surface import Surface, rows_on
 from ._tips import active_field
 
 Array = np.ndarray[Any, Any]
-STENCIL, REACH = (
-    9,
-    0.1,
-)  # points each way and whole depths, for the curvature where the pair touches first
+STENCIL, REACH = 9, 0.1  # points each way, odd, and whole depths: for the curvature at first touch
 STRAIGHT = 2e-5  # 1/mm: the least relative curvature that a first patch counts with
 
 
@@ -47,13 +44,19 @@ class Meeting:
         return zero, np.array(ends) - zero
 
     @property
+    def depth(self) -> float:
+        """Whole depth of the pinion's tooth at its heel, mm."""
+        flank = self.contact.pinion_flank
+        return float(flank.tip.at(flank.heel) - flank.root.at(flank.heel))
+
+    @property
     def flanks(self) -> tuple[Flank, Flank]:
         """Of pinion and wheel."""
         return self.contact.pinion_flank, self.contact.wheel_flank
 
     def surface(self, a: Array, b: Array) -> Surface:
         """The pinion's points on rays at (a, b), mm, of the tangent plane."""
-        pair, stand = self.contact.pair, (self.phi, self.lead)
+        pair, stand = self.contact.pair, (self.phi, self.lead, self.depth)
         fields = (
             active_field(flank, member.tip_rounding)
             for flank, member in zip(self.flanks, (pair.pinion, pair.wheel), strict=True)
@@ -89,35 +92,35 @@ def meeting(contact: UnloadedContact, position: int, pair: int) -> Meeting | Non
     first /= np.linalg.norm(first)
     axes = np.array([first, np.cross(out, first), out])
     rough = Meeting(contact, pair, phi, float(rigid), origin, axes, (STRAIGHT, STRAIGHT), 0.0, 0.0)
-    levers = rough.surface(np.zeros(1), np.zeros(1)).levers
-    gap = (float(rigid) - float(contact.curve[own])) * float(levers[1][0])
-    turn, curvature = _curvature(rough, contact.pinion_flank)
+    turn, curvature, (lever, wheel_lever) = _curvature(rough)
+    gap = (float(rigid) - float(contact.curve[own])) * wheel_lever
     c, s = np.cos(turn), np.sin(turn)
     if c * axes[0, 2] + s * axes[1, 2] < 0.0:  # always the same way, as the positions go on
         c, s = -c, -s
     axes = np.array([c * axes[0] + s * axes[1], c * axes[1] - s * axes[0], out])
-    return Meeting(
-        contact, pair, phi, float(rigid), origin, axes, curvature, gap, float(levers[0][0])
-    )
+    return Meeting(contact, pair, phi, float(rigid), origin, axes, curvature, gap, lever)
 
 
 def _half(contact: UnloadedContact) -> int:
     return contact.sampling.pairs // 2
 
 
-def _curvature(rough: Meeting, flank: Any) -> tuple[float, tuple[float, float]]:
-    """Direction of least curvature of the gap in the tangent plane, rad, and both curvatures, 1/mm."""
-    depth = float(flank.tip.at(flank.heel) - flank.root.at(flank.heel))
-    spread = np.linspace(-REACH * depth, REACH * depth, STENCIL)
+def _curvature(rough: Meeting) -> tuple[float, tuple[float, float], tuple[float, float]]:
+    """Direction of the gap's least curvature in the tangent plane, rad, both curvatures, 1/mm, and levers, mm."""
+    spread = REACH * rough.depth * np.linspace(-1.0, 1.0, STENCIL)
     a, b = (v.ravel() for v in np.meshgrid(spread, spread))
+    turn, curvature = 0.0, (STRAIGHT, 1e-2)
     for wider in (1.0, 3.0):
         x, y = wider * a, wider * b
-        gap = rough.surface(x, y).gap
-        there = np.isfinite(gap)
+        seen = rough.surface(x, y)
+        lever, wheel_lever = (float(v[len(a) // 2]) for v in seen.levers)
+        there = np.isfinite(seen.gap)
         if there.sum() >= 2 * STENCIL:
             terms = np.stack([np.ones_like(x), x, y, 0.5 * x * x, x * y, 0.5 * y * y], axis=1)
-            fit, *_ = np.linalg.lstsq(terms[there], gap[there], rcond=None)
+            fit, *_ = np.linalg.lstsq(terms[there], seen.gap[there], rcond=None)
             values, vectors = np.linalg.eigh([[fit[3], fit[4]], [fit[4], fit[5]]])
             low, high = (max(float(v), STRAIGHT) for v in values)
-            return float(np.arctan2(vectors[1, 0], vectors[0, 0])), (low, max(high, low))
-    return 0.0, (STRAIGHT, 1e-2)
+            turn = float(np.arctan2(vectors[1, 0], vectors[0, 0]))
+            curvature = (low, max(high, low))
+            break
+    return turn, curvature, (lever, wheel_lever)

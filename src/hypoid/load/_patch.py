@@ -25,7 +25,7 @@ LIMITS = (
     EDGES.index("wheel fillet limit"),
     EDGES.index("pinion fillet limit"),
 )  # by the mate's tip
-COLUMNS, ROWS = 25, 11  # cells along the contact and across
+COLUMNS, ROWS = 25, 11  # cells along the contact and across: `CELLS` of them
 CORNERS = 8  # of a rectangle that two tips and two ends have cut
 NEAR = 0.1  # mm: cells so near to a rounded tip count full where its line is fitted
 

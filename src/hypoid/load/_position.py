@@ -81,7 +81,8 @@ def position_contact(
 
     `guesses` to start from, by pair, and about the `rotation`, rad, if they are known.
     """
-    rotation = rotation or first_rotation(meetings, teeth, torque)
+    if not rotation > 0.0:
+        rotation = first_rotation(meetings, teeth, torque)
     ranked = sorted(meetings, key=lambda m: m.gap - rotation * m.lever)
     foretold = set(guesses or {})
     chosen = [m for m in ranked if m.gap < rotation * m.lever or m.pair in foretold] or ranked[:1]
@@ -119,6 +120,8 @@ def position_contact(
         for p in found.patches:
             if (window := moved.get(p.meeting.pair)) is not None:
                 cells[p.meeting.pair] = Cells(patch(p.meeting, window), teeth)
+    if guesses and (found is None or found.outcome is not Outcome.OK):
+        return position_contact(meetings, teeth, torque)  # not where it was foretold
     return found or NOWHERE
 
 

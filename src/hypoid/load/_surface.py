@@ -16,11 +16,11 @@ import numpy as np
 from hypoid.contact import AngleField, Mounting, lead, to_wheel
 from hypoid.geometry import Batch, Batched, Scalar
 
+from ._love import CELLS
+
 Array = np.ndarray[Any, Any]
 STEPS, ARRIVED = 8, 1e-13  # most of Newton's, and when they end, rad
 MISSED = 1e-10  # rad by which a ray that meets the pinion is off it at most
-FARTHEST = 1.0  # mm: the longest of them
-BLOCK = 275  # rays that are followed together: as many as a patch has cells
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +78,7 @@ def _met(
     mount: Mounting,
     pinion: AngleField,
     wheel: AngleField,
-    stand: tuple[Scalar, Scalar],
+    stand: tuple[Scalar, Scalar, Scalar],
     zero: Batch,
     axes: Batch,
     a: Batch,
@@ -86,9 +86,9 @@ def _met(
 ) -> tuple[Batch, ...]:
     """Rows of a `Surface` on rays at (a, b) of the tangent plane; its origin and axes are given in the pinion's frame.
 
-    `stand` is where the members stand: the pinion's angle and the wheel's lead, rad.
+    `stand` is where the members stand, the pinion's angle and the wheel's lead, rad, and Newton's longest step, mm.
     """
-    phi, rigid = stand
+    phi, rigid, farthest = stand
 
     def at(height: Batch) -> tuple[Batch, ...]:
         return tuple(
@@ -106,7 +106,7 @@ def _met(
 
     def step(state: tuple[Any, ...]) -> tuple[Any, ...]:
         count, height, off, slope = state
-        move = jnp.clip(jnp.nan_to_num(-off / slope), -FARTHEST, FARTHEST)
+        move = jnp.clip(jnp.nan_to_num(-off / slope), -farthest, farthest)
         return count + 1, height + move, *missed(height + move)
 
     def going(state: tuple[Any, ...]) -> Batch:
@@ -141,4 +141,4 @@ def _met(
     return *point, *normal, up * size, gap, *levers, *places[0], *places[1], *limits
 
 
-rows_on = Batched(_met, parameters=6, block=BLOCK, most=2 * BLOCK)
+rows_on = Batched(_met, parameters=6, block=CELLS, most=2 * CELLS)
