@@ -62,9 +62,9 @@ def main() -> None:
         sizes = elements_of(member, MESHES["usual"])
         with TemporaryDirectory() as nowhere:
             tooth_compliance(member, flank.side, elements=sizes, cache=Path(nowhere))
-        unknowns, columns, layers, direct, away = kept[0]
+        unknowns, columns, sections, direct, away = kept[0]
         print(
-            f"{member.name}: {unknowns} unknowns, {columns} columns; layers {layers:.1f} s, "
+            f"{member.name}: {unknowns} unknowns, {columns} columns; sections {sections:.1f} s, "
             f"MUMPS {direct:.1f} s, answers differ by {away:.1e}"
         )
 
