@@ -222,6 +222,18 @@ def test_where_nothing_is_known_the_first_guess_is_near(
         assert 0.25 < np.ptp(ends) / np.ptp(seen) < 4.0
 
 
+def test_guesses_beside_the_flanks_are_left(loaded: LoadedContact) -> None:
+    """Windows where no cell is, or a rotation that means nothing: the contact is found as if none had been given."""
+    where = len(loaded.unloaded.phi) // 2
+    met = [m for k in range(-4, 5) if (m := meeting(loaded.unloaded, where, k)) is not None]
+    beside = {m.pair: Guess(Window((500.0, 501.0), (500.0, 501.0))) for m in met}
+    alone = position_contact(met, loaded.teeth, TORQUES[1])
+    for guesses, rotation in ((beside, alone.rotation), ({}, -1.0), ({}, float("nan"))):
+        found = position_contact(met, loaded.teeth, TORQUES[1], guesses, rotation)
+        assert found.outcome is Outcome.OK
+        assert found.rotation == alone.rotation
+
+
 def test_rays_that_miss_the_flank_have_no_gap(loaded: LoadedContact) -> None:
     met = meeting(loaded.unloaded, len(loaded.unloaded.phi) // 2, 0)
     assert met is not None
