@@ -32,9 +32,8 @@ def case(coefficient: float, folder: Path, rounding: float = 0.0) -> LoadCase:
         for member, side in ((pair.pinion, "concave"), (pair.wheel, "convex"))
     ]
     members = {m.name: replace(m, tip_rounding=rounding) for m in (pair.pinion, pair.wheel)}
-    return loaded_contact(replace(pair, **members), "drive", [TORQUE], *teeth, positions=21).cases[
-        0
-    ]
+    pair = replace(pair, **members)
+    return loaded_contact(pair, "drive", [TORQUE], *teeth, positions=21).cases[0]
 
 
 @pytest.mark.slow

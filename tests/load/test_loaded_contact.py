@@ -29,7 +29,7 @@ from hypoid.load._cells import Cells, compliance
 from hypoid.load._guess import Guess, first_rotation, first_window
 from hypoid.load._load_case import _spline_range
 from hypoid.load._loaded import solved_positions
-from hypoid.load._meeting import meeting
+from hypoid.load._meeting import Meeting, meeting
 from hypoid.load._patch import EDGES, Window, patch
 from hypoid.load._position import position_contact
 from hypoid.pair import GearPair
@@ -40,9 +40,13 @@ from .test_half_space import MODULUS, hertz
 
 def at(loaded: LoadedContact, torque: float, position: int = 0) -> Any:
     """Contact of all pairs at one position after pinion angle zero."""
+    return position_contact(met_at(loaded, position), loaded.teeth, torque)
+
+
+def met_at(loaded: LoadedContact, position: int = 0) -> list[Meeting]:
+    """All pairs that can touch there."""
     where = len(loaded.unloaded.phi) // 2 + position
-    met = [m for k in range(-4, 5) if (m := meeting(loaded.unloaded, where, k)) is not None]
-    return position_contact(met, loaded.teeth, torque)
+    return [m for k in range(-4, 5) if (m := meeting(loaded.unloaded, where, k)) is not None]
 
 
 def test_moments_are_in_equilibrium(loaded: LoadedContact) -> None:
@@ -210,8 +214,7 @@ def test_where_nothing_is_known_the_first_guess_is_near(
     loaded: LoadedContact, torque: float
 ) -> None:
     """Line contacts that take half of the approach: rotation within half, first windows within four times."""
-    where = len(loaded.unloaded.phi) // 2
-    met = [m for k in range(-4, 5) if (m := meeting(loaded.unloaded, where, k)) is not None]
+    met = met_at(loaded)
     found = at(loaded, torque)
     assert first_rotation(met, loaded.teeth, torque) == pytest.approx(found.rotation, rel=0.5)
     most = max(found.patches, key=lambda p: found.guesses[p.meeting.pair].approach)
@@ -224,8 +227,7 @@ def test_where_nothing_is_known_the_first_guess_is_near(
 
 def test_guesses_beside_the_flanks_are_left(loaded: LoadedContact) -> None:
     """Windows where no cell is, or a rotation that means nothing: the contact is found as if none had been given."""
-    where = len(loaded.unloaded.phi) // 2
-    met = [m for k in range(-4, 5) if (m := meeting(loaded.unloaded, where, k)) is not None]
+    met = met_at(loaded)
     beside = {m.pair: Guess(Window((500.0, 501.0), (500.0, 501.0))) for m in met}
     alone = position_contact(met, loaded.teeth, TORQUES[1])
     for guesses, rotation in ((beside, alone.rotation), ({}, -1.0), ({}, float("nan"))):

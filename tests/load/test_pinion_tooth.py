@@ -22,9 +22,8 @@ from hypoid.load import MESHES
 from hypoid.load._setup import LONGEST, elements_of
 from hypoid.pair import GearPair
 
-NARROW = replace(
-    COARSE, across=0.026
-)  # a fifth of the contact's half width: pressure is 2 % high with a quarter
+# a fifth of the contact's half width: pressure is 2 % high with a quarter
+NARROW = replace(COARSE, across=0.026)
 TORQUE = 4e3  # N mm: at half of it the contact is too narrow for a reference this coarse
 
 
